@@ -6,7 +6,8 @@
 
 namespace flaneur {
 
-// In lower case, as they come: "hex_grass.001" and "HexGrass" are both hex, grass.
+// In lower case, as they come: "hex_grass.001" and "HexGrass" are both hex, grass. Letters beyond ASCII stay as they
+// are.
 std::vector<std::string> NameWords(std::string_view name);
 
 }  // namespace flaneur

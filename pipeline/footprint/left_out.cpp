@@ -23,6 +23,15 @@ void WarnOfFlat(const std::vector<std::string>& flat, std::vector<std::string>* 
                       " m were taken for ground and block nobody: " + names);
 }
 
+void WarnOfUntold(const std::vector<std::string>& untold, std::vector<std::string>* warnings) {
+  if (untold.empty()) return;
+  constexpr size_t kNamed = 8;
+  std::string names;
+  for (size_t i = 0; i < std::min(untold.size(), kNamed); ++i) names += (i > 0 ? ", '" : "'") + untold[i] + "'";
+  if (untold.size() > kNamed) names += " and " + std::to_string(untold.size() - kNamed) + " more";
+  warnings->push_back("the town's ground was found by its shape, in " + names + ": tag what it is, or give it a name");
+}
+
 bool IsRound(const TownObject& object) {
   return object.kind == ObstacleKind::kTree || object.kind == ObstacleKind::kLamp;
 }
@@ -59,6 +68,7 @@ void WarnOfLeftOut(const Site& site, const TownObjects& town, const std::vector<
                    const std::vector<Rings>& outlines, const std::vector<bool>& has_obstacle,
                    std::vector<std::string>* warnings) {
   WarnOfFlat(town.flat, warnings);
+  WarnOfUntold(town.untold, warnings);
   for (size_t i = 0; i < town.obstacles.size(); ++i) {
     const TownObject& object = town.obstacles[i];
     const Shape& shape = shapes[i];

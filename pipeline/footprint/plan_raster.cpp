@@ -111,10 +111,10 @@ void VisitArea(const Triangle3& triangle, const GroundRaster& raster, const Visi
 
 }  // namespace
 
-GroundRaster BlankRaster(Point2 min_m, Point2 max_m) {
+GroundRaster BlankRaster(Point2 min_m, Point2 max_m, double cell_m) {
   GroundRaster raster;
   const double width = max_m.x - min_m.x, depth = max_m.y - min_m.y;
-  double cell = kBaseCell_m;
+  double cell = cell_m;
   while ((width / cell + 2) * (depth / cell + 2) > kMaxBaseCells) cell *= 2;
   raster.cell_m = static_cast<float>(cell);
   raster.min_m = {static_cast<float>(std::floor(min_m.x / cell) * cell),

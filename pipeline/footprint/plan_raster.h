@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "pipeline/core/footprint.h"
+#include "pipeline/footprint/constants.h"
 #include "pipeline/footprint/town_objects.h"
 #include "runtime/base/array.h"
 
@@ -11,8 +12,8 @@ namespace flaneur {
 
 inline constexpr float kNoHeight = std::numeric_limits<float>::max();
 
-// Cells of 0.25 m over a box, larger where that would be too many; no cell has a height yet.
-GroundRaster BlankRaster(Point2 min_m, Point2 max_m);
+// Cells of `cell_m` over a box, larger where that would be too many; no cell has a height yet.
+GroundRaster BlankRaster(Point2 min_m, Point2 max_m, double cell_m = kBaseCell_m);
 
 inline size_t CellAt(const GroundRaster& raster, int column, int row) { return RowMajor(row, raster.columns, column); }
 int ColumnAt(const GroundRaster& raster, double x);

@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <map>
+#include <string_view>
 
 #include "pipeline/core/name_words.h"
 #include "pipeline/footprint/box_grid.h"
 #include "pipeline/footprint/constants.h"
+#include "pipeline/footprint/untold_ground.h"
 #include "runtime/base/array.h"
 
 namespace flaneur {
@@ -17,19 +19,35 @@ struct Meaning {
   bool is_flat = false;  // and therefore ground
 };
 
-// The first line that shares a word with the name decides: a street lamp is a lamp.
+// The first line that shares a word with the name decides: a street lamp is a lamp. A word after a star is also the end
+// of a longer one, as German has them: Marktplatz, Breite Herzogstraße.
 struct NamedMeaning {
-  std::initializer_list<const char*> words;
+  std::initializer_list<std::string_view> words;
   Meaning meaning;
 };
 const NamedMeaning kNamedMeanings[] = {
-    {{"tree"}, {NodeKind::kTree}},
-    {{"lamp", "lamppost", "streetlamp", "streetlight", "lantern"}, {NodeKind::kLamp}},
-    {{"road", "street", "lane", "carriageway"}, {NodeKind::kGround, GroundKind::kCarriageway}},
-    {{"grass", "lawn", "meadow"}, {NodeKind::kGround, GroundKind::kGrass}},
-    {{"square", "plaza"}, {NodeKind::kGround, GroundKind::kSquare}},
-    {{"ground", "terrain", "floor", "hex", "path", "pavement", "sidewalk"}, {NodeKind::kGround, GroundKind::kPavement}},
+    {{"tree", "*baum", "*bäume", "arbre", "arbres", "árbol", "arbol", "albero", "alberi", "drzewo", "树", "樹", "木"},
+     {NodeKind::kTree}},
+    {{"lamp", "lamppost", "streetlamp", "streetlight", "lantern", "*laterne", "*lampe", "lampadaire", "réverbère",
+      "farola", "lampione", "lantaarn", "latarnia", "路灯", "街灯"},
+     {NodeKind::kLamp}},
+    {{"road", "street", "lane", "carriageway", "*strasse", "*straße", "*gasse", "fahrbahn", "rue", "chaussée", "calle",
+      "strada", "straat", "ulica", "道路"},
+     {NodeKind::kGround, GroundKind::kCarriageway}},
+    {{"grass", "lawn", "meadow", "*gras", "*wiese", "*rasen", "pelouse", "herbe", "césped", "prato", "erba", "trawa",
+      "草地", "芝生"},
+     {NodeKind::kGround, GroundKind::kGrass}},
+    {{"square", "plaza", "*platz", "parvis", "piazza", "plein", "plac", "广场", "広場"},
+     {NodeKind::kGround, GroundKind::kSquare}},
+    {{"ground", "terrain", "floor", "hex", "path", "pavement", "sidewalk", "landscape", "topography", "*boden", "*gelände",
+      "gelaende", "dgm", "dtm", "*pflaster", "*gehweg", "sol", "trottoir", "suelo", "terreno", "acera", "marciapiede",
+      "grond", "maaiveld", "teren", "地面", "地形"},
+     {NodeKind::kGround, GroundKind::kPavement}},
 };
+
+bool Means(const std::string& word, std::string_view known) {
+  return known.starts_with('*') ? word.ends_with(known.substr(1)) : word == known;
+}
 
 Meaning FromName(const std::string& name, const Point3& min, const Point3& max) {
   const double height_m = max.z - min.z;
@@ -38,7 +56,7 @@ Meaning FromName(const std::string& name, const Point3& min, const Point3& max) 
   const std::vector<std::string> words = NameWords(name);
   for (const NamedMeaning& named : kNamedMeanings) {
     const bool matches =
-        std::find_first_of(words.begin(), words.end(), named.words.begin(), named.words.end()) != words.end();
+        std::find_first_of(words.begin(), words.end(), named.words.begin(), named.words.end(), Means) != words.end();
     if (!matches) continue;
     const bool is_ground = named.meaning.kind == NodeKind::kGround;
     if (!is_ground || height_m <= kMaxGroundSteepness * longer_m) return named.meaning;
@@ -188,6 +206,7 @@ TownObjects SortTown(const Scene& scene, double scale) {
   std::map<int, size_t> object_of_root;
   std::vector<std::pair<int, std::vector<Triangle3>>> foundations;  // by root
   std::vector<FlatObject> flat;
+  std::vector<size_t> untagged;  // of the obstacles, those that no name tells either
   for (size_t i = 0; i < scene.nodes.size(); ++i) {
     const SceneNode& node = scene.nodes[i];
     if (node.meshes.empty() || (node.kind == NodeKind::kNone && !node.is_foundation)) continue;
@@ -214,6 +233,7 @@ TownObjects SortTown(const Scene& scene, double scale) {
     if (is_new) {
       const SceneNode& top = At(scene.nodes, root);
       const std::string name = top.name.empty() ? "node_" + std::to_string(root) : top.name;
+      if (node.kind == NodeKind::kUntagged && kind == ObstacleKind::kBuilding) untagged.push_back(town.obstacles.size());
       town.obstacles.push_back({name, kind, top.radius_m, {}, {}, min, max});
       if (top.is_bridge) town.obstacles.back().kind = ObstacleKind::kOther, town.obstacles.back().is_bridge = true;
     }
@@ -228,7 +248,10 @@ TownObjects SortTown(const Scene& scene, double scale) {
     foundation.insert(foundation.end(), triangles.begin(), triangles.end());
     town.obstacles[entry->second].foundation_is_given = true;
   }
+  const size_t before_slabs = town.obstacles.size();
   TakeSlabsForBuildings(scene, flat, &town);
+  for (size_t slab = before_slabs; slab < town.obstacles.size(); ++slab) untagged.push_back(slab);
+  TakeUntoldGround(untagged, &town);
   return town;
 }
 

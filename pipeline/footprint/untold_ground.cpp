@@ -1,0 +1,273 @@
+#include "pipeline/footprint/untold_ground.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "pipeline/footprint/constants.h"
+#include "pipeline/footprint/disjoint_sets.h"
+#include "pipeline/footprint/plan_raster.h"
+
+namespace flaneur {
+namespace {
+
+constexpr double kCell_m = 0.5, kMaxCells = 500'000;  // of the raster; larger ones in a wide town
+constexpr double kUpwards = 0.6;              // of a face's normal, what shows upwards where one could walk
+constexpr double kStep_m = 0.3, kSlope = 0.7;  // from cell to cell: a step, and as much of the cell's width
+constexpr double kRises_m = 1;                // a wall; lower ones are steps, kerbs and parapets
+constexpr double kMaxRoofed = 0.6;            // of a piece lies under something: more, and it is a floor
+constexpr double kMaxHanging = 0.15;          // of its area, walls that hang below it: more than a model's edge has
+constexpr double kMinGround = 0.1;            // of the town, the largest piece
+constexpr double kMinBesideLargest = 0.02;    // of that, any other
+constexpr double kEnoughGround = 0.3;         // of the largest piece: the town has ground already
+constexpr double kOnGround_m = 0.15;          // faces so little over it are kerbs and roads, and ground too
+constexpr double kMinLeft = 0.02;             // of an object's area, or nothing of it is left
+constexpr size_t kNone = static_cast<size_t>(-1);
+
+Point3 NormalTimesArea(const Triangle3& t) {
+  const auto& [a, b, c] = t;
+  const double ux = b.x - a.x, uy = b.y - a.y, uz = b.z - a.z, vx = c.x - a.x, vy = c.y - a.y, vz = c.z - a.z;
+  return {(uy * vz - uz * vy) / 2, (uz * vx - ux * vz) / 2, (ux * vy - uy * vx) / 2};
+}
+
+double TriangleArea(const Triangle3& t) {
+  const Point3 n = NormalTimesArea(t);
+  return std::hypot(n.x, n.y, n.z);
+}
+
+bool ShowsUpwards(const Triangle3& t, bool either_way) {
+  const Point3 n = NormalTimesArea(t);
+  const double up = either_way ? std::abs(n.z) : n.z;
+  return up > kUpwards * std::hypot(n.x, n.y, n.z);
+}
+
+// A piece of surface that one could walk on.
+struct Region {
+  size_t cells = 0, roofed = 0;
+  double rising_m2 = 0, hanging_m2 = 0;  // walls
+};
+
+class Finder {
+ public:
+  Finder(const std::vector<size_t>& untagged, bool either_way, TownObjects* town)
+      : untagged_(untagged), either_way_(either_way), town_(*town) {}
+
+  bool Take() {
+    Measure();
+    if (known_m2_ > kEnoughGround * town_m2_) return false;
+    Draw();
+    Join();
+    if (std::none_of(regions_.begin(), regions_.end(), [&](const Region& r) { return IsLarge(r); })) return false;
+    LookAtWalls();
+    LookUp();
+    return Choose() && Move();
+  }
+
+ private:
+  template <typename Use>
+  void ForTriangles(Use use) const {
+    for (const size_t i : untagged_)
+      for (const Triangle3& t : town_.obstacles[i].triangles) use(t);
+  }
+
+  void Measure() {
+    for (const size_t i : untagged_) {
+      const TownObject& o = town_.obstacles[i];
+      min_m_ = {std::min(min_m_.x, o.min_m.x), std::min(min_m_.y, o.min_m.y)};
+      max_m_ = {std::max(max_m_.x, o.max_m.x), std::max(max_m_.y, o.max_m.y)};
+    }
+    town_m2_ = (max_m_.x - min_m_.x) * (max_m_.y - min_m_.y);
+    for (const GroundPatch& patch : town_.ground)
+      for (const Triangle3& t : patch.triangles) known_m2_ += std::abs(NormalTimesArea(t).z);
+  }
+
+  // The lowest face that shows upwards, cell by cell.
+  void Draw() {
+    double cell_m = kCell_m;
+    while (town_m2_ / (cell_m * cell_m) > kMaxCells) cell_m *= 2;
+    surface_ = BlankRaster(min_m_, max_m_, cell_m);
+    ForTriangles([&](const Triangle3& t) {
+      if (ShowsUpwards(t, either_way_)) DrawArea(t, &surface_);
+    });
+  }
+
+  bool Known(size_t cell) const { return surface_.height_m[cell] != kNoHeight; }
+
+  template <typename Use>
+  void ForCells(Use use) const {
+    for (int row = 0; row < surface_.rows; ++row)
+      for (int column = 0; column < surface_.columns; ++column) use(column, row, CellAt(surface_, column, row));
+  }
+
+  void Join() {
+    DisjointSets sets(surface_.height_m.size());
+    const double step_m = kStep_m + kSlope * static_cast<double>(surface_.cell_m);
+    const auto join = [&](size_t a, size_t b) {
+      const bool on = Known(a) && Known(b) &&
+                      std::abs(static_cast<double>(surface_.height_m[a] - surface_.height_m[b])) <= step_m;
+      if (on) sets.Join(a, b);
+    };
+    ForCells([&](int column, int row, size_t cell) {
+      if (column > 0) join(cell, cell - 1);
+      if (row > 0) join(cell, CellAt(surface_, column, row - 1));
+    });
+    std::vector<size_t> region_of_root(surface_.height_m.size(), kNone);
+    region_.assign(surface_.height_m.size(), kNone);
+    for (size_t cell = 0; cell < region_.size(); ++cell) {
+      if (!Known(cell)) continue;
+      size_t& region = region_of_root[sets.Root(cell)];
+      if (region == kNone) region = regions_.size(), regions_.emplace_back();
+      region_[cell] = region;
+      ++regions_[region].cells;
+    }
+  }
+
+  // Calls with each cell at and beside a place.
+  template <typename Use>
+  void ForCellsBeside(int column, int row, Use use) const {
+    for (int r = std::max(row - 1, 0); r <= std::min(row + 1, surface_.rows - 1); ++r)
+      for (int c = std::max(column - 1, 0); c <= std::min(column + 1, surface_.columns - 1); ++c)
+        use(CellAt(surface_, c, r));
+  }
+
+  void LookAtWalls() {
+    ForTriangles([&](const Triangle3& t) {
+      if (!IsWall(t)) return;
+      const double low = std::min({t[0].z, t[1].z, t[2].z}), high = std::max({t[0].z, t[1].z, t[2].z});
+      const double x = (t[0].x + t[1].x + t[2].x) / 3, y = (t[0].y + t[1].y + t[2].y) / 3;
+      std::vector<size_t> seen;
+      ForCellsBeside(ColumnAt(surface_, x), RowAt(surface_, y), [&](size_t cell) {
+        const size_t region = region_[cell];
+        if (region == kNone || std::find(seen.begin(), seen.end(), region) != seen.end()) return;
+        seen.push_back(region);
+        const auto z = static_cast<double>(surface_.height_m[cell]);
+        if (high > z + kRises_m && low < z + kRises_m) regions_[region].rising_m2 += TriangleArea(t);
+        if (low < z - kRises_m && high < z + kRises_m) regions_[region].hanging_m2 += TriangleArea(t);
+      });
+    });
+  }
+
+  // Counts the cells of each region that something covers.
+  void LookUp() {
+    GroundRaster under = surface_;  // heights turned over, so that the highest is the lowest
+    std::fill(under.height_m.begin(), under.height_m.end(), kNoHeight);
+    for (const TownObject& object : town_.obstacles) {
+      for (Triangle3 t : object.triangles) {
+        if (IsWall(t)) continue;
+        for (Point3& p : t) p.z = -p.z;
+        DrawArea(t, &under);
+      }
+    }
+    for (size_t cell = 0; cell < region_.size(); ++cell) {
+      const bool covered = region_[cell] != kNone && under.height_m[cell] != kNoHeight &&
+                           -under.height_m[cell] > surface_.height_m[cell] + static_cast<float>(kRises_m);
+      if (covered) ++regions_[region_[cell]].roofed;
+    }
+  }
+
+  double AreaOf(const Region& region) const {
+    return static_cast<double>(region.cells) * static_cast<double>(surface_.cell_m) *
+           static_cast<double>(surface_.cell_m);
+  }
+
+  bool IsLarge(const Region& region) const { return AreaOf(region) >= kMinGround * town_m2_; }
+
+  bool IsGround(const Region& region) const {
+    return region.rising_m2 > region.hanging_m2 && region.hanging_m2 < kMaxHanging * AreaOf(region) &&
+           static_cast<double>(region.roofed) < kMaxRoofed * static_cast<double>(region.cells);
+  }
+
+  bool Choose() {
+    double largest_m2 = 0;
+    for (const Region& region : regions_)
+      if (IsGround(region)) largest_m2 = std::max(largest_m2, AreaOf(region));
+    if (largest_m2 < kMinGround * town_m2_ || known_m2_ > kEnoughGround * largest_m2) return false;
+    for (const Region& region : regions_)
+      ground_.push_back(IsGround(region) && AreaOf(region) >= kMinBesideLargest * largest_m2);
+    return true;
+  }
+
+  // Of the cells under its middle and its corners, as many as tell.
+  bool IsOnGround(const Triangle3& t) const {
+    if (!ShowsUpwards(t, either_way_)) return false;
+    int on = 0, off = 0;
+    const auto ask = [&](double x, double y, double z) {
+      const int column = ColumnAt(surface_, x), row = RowAt(surface_, y);
+      if (column < 0 || row < 0 || column >= surface_.columns || row >= surface_.rows) return;
+      double low = 1e300, high = -1e300;
+      ForCellsBeside(column, row, [&](size_t cell) {
+        if (region_[cell] == kNone || !ground_[region_[cell]]) return;
+        low = std::min(low, static_cast<double>(surface_.height_m[cell]));
+        high = std::max(high, static_cast<double>(surface_.height_m[cell]));
+      });
+      const size_t here = region_[CellAt(surface_, column, row)];
+      const bool is_on = here != kNone && ground_[here] && z > low - kOnGround_m && z < high + kOnGround_m;
+      ++(is_on ? on : off);
+    };
+    constexpr int kAsked = 6;  // a side
+    for (int i = 0; i < kAsked; ++i) {
+      for (int j = 0; i + j < kAsked; ++j) {
+        const double u = (i + 1.0 / 3) / kAsked, v = (j + 1.0 / 3) / kAsked, w = 1 - u - v;
+        ask(w * t[0].x + u * t[1].x + v * t[2].x, w * t[0].y + u * t[1].y + v * t[2].y,
+            w * t[0].z + u * t[1].z + v * t[2].z);
+      }
+    }
+    return on > off;
+  }
+
+  bool Move() {
+    GroundPatch ground{GroundKind::kSquare, {}};
+    std::vector<TownObject> left;
+    std::vector<bool> asked(town_.obstacles.size(), false);
+    for (const size_t i : untagged_) asked[i] = true;
+    for (size_t i = 0; i < town_.obstacles.size(); ++i) {
+      TownObject& object = town_.obstacles[i];
+      if (!asked[i] || Rest(&object, &ground)) left.push_back(std::move(object));
+    }
+    if (ground.triangles.empty()) return false;
+    town_.obstacles = std::move(left);
+    town_.ground.push_back(std::move(ground));
+    return true;
+  }
+
+  // Takes the ground out of an object; false where nothing of it is left.
+  bool Rest(TownObject* object, GroundPatch* ground) {
+    std::vector<Triangle3> rest;
+    double all_m2 = 0, rest_m2 = 0;
+    for (const Triangle3& t : object->triangles) {
+      const bool on = IsOnGround(t);
+      all_m2 += TriangleArea(t), rest_m2 += on ? 0 : TriangleArea(t);
+      (on ? ground->triangles : rest).push_back(t);
+    }
+    if (rest.size() == object->triangles.size()) return true;
+    town_.untold.push_back(object->name);
+    if (rest.empty() || rest_m2 < kMinLeft * all_m2) return false;
+    object->triangles = std::move(rest);
+    object->min_m = object->max_m = object->triangles[0][0];
+    for (const Triangle3& t : object->triangles) {
+      for (const Point3& p : t) {
+        object->min_m = {std::min(object->min_m.x, p.x), std::min(object->min_m.y, p.y), std::min(object->min_m.z, p.z)};
+        object->max_m = {std::max(object->max_m.x, p.x), std::max(object->max_m.y, p.y), std::max(object->max_m.z, p.z)};
+      }
+    }
+    return true;
+  }
+
+  const std::vector<size_t>& untagged_;  // of the obstacles
+  const bool either_way_;
+  TownObjects& town_;
+  Point2 min_m_{1e300, 1e300}, max_m_{-1e300, -1e300};
+  double town_m2_ = 0, known_m2_ = 0;
+  GroundRaster surface_;
+  std::vector<size_t> region_;  // of each cell; kNone: of no surface
+  std::vector<Region> regions_;
+  std::vector<bool> ground_;  // of each region
+};
+
+}  // namespace
+
+void TakeUntoldGround(const std::vector<size_t>& untagged, TownObjects* town) {
+  if (untagged.empty()) return;
+  if (!Finder(untagged, false, town).Take()) Finder(untagged, true, town).Take();
+}
+
+}  // namespace flaneur

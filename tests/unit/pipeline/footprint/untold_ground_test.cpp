@@ -1,0 +1,94 @@
+#include "pipeline/footprint/untold_ground.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/unit/pipeline/footprint/test_town.h"
+
+namespace flaneur {
+namespace {
+
+// A hill of strips that rises to the east, `named` or one mesh with all else; houses on it, open below, some with flat
+// roofs.
+TestTown Hill(const char* named, bool one_mesh, bool turned) {
+  TestTown town;
+  const auto height = [](float x) { return 0.1f * x; };
+  const auto node = [&](const std::string& name) {
+    if (!one_mesh || town.scene.nodes.empty()) town.Node(name, NodeKind::kUntagged);
+  };
+  node(named);
+  for (int i = 0; i < 30; ++i) {
+    const float x0 = 4 * static_cast<float>(i), x1 = x0 + 4;
+    const Vec3 a{x0, 0, height(x0)}, b{x1, 0, height(x1)}, c{x1, 80, height(x1)}, d{x0, 80, height(x0)};
+    if (turned) town.Quad(d, c, b, a);
+    else town.Quad(a, b, c, d);
+  }
+  for (int i = 0; i < 4; ++i) {
+    for (int j = 0; j < 3; ++j) {
+      const float x = 10 + 28 * static_cast<float>(i), y = 10 + 24 * static_cast<float>(j);
+      node("b" + std::to_string(10 * i + j));
+      town.Box({x, y, height(x) - 1}, {x + 12, y + 10, height(x) + 8}, {Side::kBottom});
+    }
+  }
+  return town;
+}
+
+double GroundArea(const TownObjects& town) {
+  double area_m2 = 0;
+  for (const GroundPatch& patch : town.ground)
+    for (const auto& [a, b, c] : patch.triangles)
+      area_m2 += std::abs((b.x - a.x) * (c.y - a.y) - (c.x - a.x) * (b.y - a.y)) / 2;
+  return area_m2;
+}
+
+TEST(UntoldGround, IsFoundWhateverItIsCalledAndHoweverItIsJoined) {
+  for (const bool one_mesh : {false, true}) {
+    for (const bool turned : {false, true}) {
+      const TownObjects town = SortTown(Hill("Object_4", one_mesh, turned).scene, 1);
+      EXPECT_NEAR(GroundArea(town), 120 * 80, 1) << one_mesh << turned;
+      EXPECT_EQ(town.obstacles.size(), one_mesh ? 1u : 12u);
+      EXPECT_EQ(town.untold, std::vector<std::string>{"Object_4"});
+    }
+  }
+}
+
+TEST(UntoldGround, IsNotLookedForWhereTheTownSaysWhatItIs) {
+  for (const char* name : {"terrain", "Gel\xC3\xA4nde", "Hanggel\xC3\xA4nde.001", "Boden", "DGM_5", "\xE5\x9C\xB0\xE5\xBD\xA2"}) {
+    const TownObjects town = SortTown(Hill(name, false, false).scene, 1);
+    EXPECT_NEAR(GroundArea(town), 120 * 80, 1) << name;
+    EXPECT_EQ(town.obstacles.size(), 12u) << name;
+    EXPECT_TRUE(town.untold.empty()) << name;
+  }
+}
+
+// Nothing but houses: flat roofs, and in the second town the floors of rooms.
+TEST(UntoldGround, RoofsAndFloorsAreNone) {
+  for (const bool floors : {false, true}) {
+    TestTown town;
+    for (int i = 0; i < 6; ++i) {
+      const float x = 20 * static_cast<float>(i);
+      town.Node("b" + std::to_string(i), NodeKind::kUntagged).Box({x, 0, 0}, {x + 14, 30, 6});
+      if (floors) town.Quad({x, 0, 0.1f}, {x + 14, 0, 0.1f}, {x + 14, 30, 0.1f}, {x, 30, 0.1f});
+    }
+    const TownObjects objects = SortTown(town.scene, 1);
+    EXPECT_TRUE(objects.ground.empty() && objects.untold.empty()) << floors;
+    EXPECT_EQ(objects.obstacles.size(), 6u);
+  }
+}
+
+TEST(SortTown, KnowsWordsOfOtherLanguages) {
+  TestTown town;
+  town.Node("Breite Herzogstra\xC3\x9F" "e", NodeKind::kUntagged).Box({0, 0, 0}, {30, 4, 0.5f});
+  town.Node("Stadtmarktplatz", NodeKind::kUntagged).Box({0, 10, 0}, {30, 30, 0.5f});
+  town.Node("Kastanienbaum.003", NodeKind::kUntagged).Box({2, 12, 0}, {3, 13, 4});
+  town.Node("Haus am Platz", NodeKind::kUntagged).Box({40, 10, 0}, {50, 20, 9});
+  const TownObjects objects = SortTown(town.scene, 1);
+  ASSERT_EQ(objects.ground.size(), 2u);
+  EXPECT_EQ(objects.ground[0].kind, GroundKind::kCarriageway);
+  EXPECT_EQ(objects.ground[1].kind, GroundKind::kSquare);
+  ASSERT_EQ(objects.obstacles.size(), 2u);
+  EXPECT_EQ(objects.obstacles[0].kind, ObstacleKind::kTree);
+  EXPECT_EQ(objects.obstacles[1].kind, ObstacleKind::kBuilding);
+}
+
+}  // namespace
+}  // namespace flaneur
