@@ -19,7 +19,8 @@ namespace {
 
 using nlohmann::json;
 
-constexpr std::string_view kDraco = "KHR_draco_mesh_compression", kKtx2Data = "data:image/ktx2;";
+constexpr std::string_view kDraco = "KHR_draco_mesh_compression";
+constexpr std::string_view kUnknownData[] = {"data:image/ktx2;", "data:image/webp;"};
 constexpr size_t kJsonOffset = 20;  // of a binary file's JSON: file header and chunk header
 
 // Keeps the file's bytes; decoding is the affair of whoever uses the picture.
@@ -85,12 +86,16 @@ void FindMeshoptBytes(json* root) {
 }
 
 // tinygltf knows but a few types of data that stand in the JSON itself.
-void RenameKtx2Data(json* root) {
+void RenameImageData(json* root) {
   if (!root->is_object() || !root->contains("images") || !(*root)["images"].is_array()) return;
   for (json& image : (*root)["images"]) {
     if (!image.is_object() || !image.contains("uri") || !image["uri"].is_string()) continue;
     const std::string& uri = image["uri"].get_ref<const std::string&>();
-    if (uri.starts_with(kKtx2Data)) image["uri"] = "data:application/octet-stream;" + uri.substr(kKtx2Data.size());
+    for (const std::string_view known : kUnknownData) {
+      if (!uri.starts_with(known)) continue;
+      image["uri"] = "data:application/octet-stream;" + uri.substr(known.size());
+      break;
+    }
   }
 }
 
@@ -133,13 +138,14 @@ void PrepareExtensions(bool binary, std::vector<uint8_t>* bytes) {
   const size_t begin = binary ? kJsonOffset : 0, end = begin + text.size();
   const bool draco = text.find(kDraco) != std::string_view::npos;
   const bool meshopt = text.find(kMeshoptExtension) != std::string_view::npos;
-  const bool ktx2 = text.find(kKtx2Data) != std::string_view::npos;
-  if (!draco && !meshopt && !ktx2) return;
+  const auto holds = [&](std::string_view data) { return text.find(data) != std::string_view::npos; };
+  const bool unknown = std::any_of(std::begin(kUnknownData), std::end(kUnknownData), holds);
+  if (!draco && !meshopt && !unknown) return;
   json root = json::parse(text, nullptr, false);
   if (root.is_discarded()) return;
   if (draco) DropDracoIndices(&root);
   if (meshopt) FindMeshoptBytes(&root);
-  if (ktx2) RenameKtx2Data(&root);
+  if (unknown) RenameImageData(&root);
   std::string changed = root.dump(-1, ' ', false, json::error_handler_t::replace);
   changed.resize((changed.size() + 3) / 4 * 4, ' ');
   const auto at = [&](size_t i) { return bytes->begin() + static_cast<std::ptrdiff_t>(i); };

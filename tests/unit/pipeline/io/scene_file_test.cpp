@@ -8,6 +8,7 @@
 #include "pipeline/io/encode_avatar.h"
 #include "pipeline/io/gltf.h"
 #include "runtime/base/file.h"
+#include "runtime/base/pixels.h"
 #include "tests/unit/pipeline/test_person.h"
 
 namespace flaneur {
@@ -210,6 +211,48 @@ TEST_F(SceneFile, ReadsARealBuilding) {
     EXPECT_EQ(scene_.images[0].mime_type, "image/png");
   }
   EXPECT_GT(files, 0);
+}
+
+// A tree in three places of one node, with a WebP picture, and a ground whose mesh hangs on a nameless node, as
+// gltfpack writes it.
+TEST(GltfScene, PlacesInstancesAndNamesWhatHangsBetween) {
+  const fs::path file = fs::path(FLANEUR_SOURCE_DIR) / "tests/data/towns/instances.gltf";
+  Scene scene;
+  ASSERT_EQ(ReadGltfScene(file, &scene).message, "");
+  std::vector<Vec3> trees;
+  int grounds = 0;
+  for (const SceneNode& node : scene.nodes) {
+    if (node.meshes.empty()) continue;
+    if (node.name == "Tree") trees.push_back(TransformPoint(node.world, {1, 3, 0}));
+    grounds += node.name == "Ground";
+  }
+  ASSERT_EQ(trees.size(), 3u);
+  EXPECT_LT(Length(trees[0] - Vec3{2, 3, 0}), 1e-3f);
+  EXPECT_LT(Length(trees[1] - Vec3{5, 3, -5}), 1e-3f) << "turned half round";
+  EXPECT_LT(Length(trees[2] - Vec3{-6, 6, 2}), 1e-3f) << "turned by a quarter, and twice as high";
+  EXPECT_EQ(grounds, 1);
+  ASSERT_EQ(scene.images.size(), 1u);
+  EXPECT_EQ(scene.images[0].mime_type, "image/png");
+  const auto pixels = Decoded(scene.images[0].bytes);
+  ASSERT_TRUE(pixels && pixels->width == 4);
+  EXPECT_EQ(pixels->rgba[3], 255);
+  EXPECT_EQ(pixels->rgba[4 * 3 + 3], 0);
+  EXPECT_EQ(pixels->rgba[1], 140);
+}
+
+TEST(GltfScene, InstancesMustAgree) {
+  const fs::path file = fs::path(FLANEUR_SOURCE_DIR) / "tests/data/towns/instances.gltf";
+  std::vector<uint8_t> bytes;
+  ASSERT_EQ(ReadFile(file, &bytes).message, "");
+  std::string text(bytes.begin(), bytes.end());
+  const std::string scale = "\"SCALE\": ";
+  text[text.find(scale) + scale.size()] = '0';  // that of the four corners
+  const fs::path changed = fs::path(testing::TempDir()) / ("instances_" + std::to_string(::getpid()) + ".gltf");
+  ASSERT_EQ(WriteFile(changed, std::vector<uint8_t>(text.begin(), text.end())).message, "");
+  Scene scene;
+  const std::string message = ReadGltfScene(changed, &scene).message;
+  EXPECT_NE(message.find("node 'Tree': EXT_mesh_gpu_instancing: "), std::string::npos) << message;
+  fs::remove(changed);
 }
 
 }  // namespace
