@@ -12,6 +12,7 @@
 #include <tuple>
 #include <vector>
 
+#include "pipeline/core/obj_files.h"
 #include "pipeline/core/uri.h"
 #include "runtime/base/file.h"
 
@@ -45,7 +46,28 @@ std::vector<fs::path> NamedFiles(const fs::path& gltf, const std::string& text) 
   return files;
 }
 
+// The pictures that CityGML's appearances name.
+std::vector<fs::path> NamedPictures(const fs::path& model, const std::string& text) {
+  constexpr std::string_view kElement = "imageURI>";
+  std::vector<fs::path> files;
+  for (size_t at = text.find(kElement); at != std::string::npos; at = text.find(kElement, at)) {
+    at += kElement.size();
+    const size_t end = text.find('<', at);
+    if (end == std::string::npos) break;
+    if (end > at) files.push_back(model.parent_path() / text.substr(at, end - at));
+  }
+  return files;
+}
+
 bool IsGltf(const fs::path& path) { return HasExtension(path, ".gltf") || HasExtension(path, ".glb"); }
+
+std::vector<fs::path> FilesOfModel(const fs::path& path, const std::string& text) {
+  if (IsGltf(path)) return NamedFiles(path, text);
+  if (HasExtension(path, ".obj")) return FilesOfObj(path, text);
+  if (HasExtension(path, ".gml") || HasExtension(path, ".xml") || HasExtension(path, ".citygml"))
+    return NamedPictures(path, text);
+  return {};
+}
 
 struct Digest {
   Digest() : context(EVP_MD_CTX_new()) { EVP_DigestInit_ex(context, EVP_sha256(), nullptr); }
@@ -69,7 +91,7 @@ struct Digest {
 
 struct Content {
   std::string sha256;           // of nothing where it cannot be read
-  std::vector<fs::path> named;  // of a glTF file
+  std::vector<fs::path> named;  // by a model
 };
 
 // By what changes whenever a file does.
@@ -102,7 +124,7 @@ Content ContentOf(const fs::path& path) {
   std::string text;
   if (ReadTextFile(path, &text)) text.clear();
   content.sha256 = Sha256(text);
-  if (IsGltf(path)) content.named = NamedFiles(path, text);
+  content.named = FilesOfModel(path, text);
   const bool settled = VersionOf(path, &after, &changed_s) && std::time(nullptr) - changed_s > kSettled_s;
   if (there && settled && before == after) {
     const std::lock_guard lock(mutex);

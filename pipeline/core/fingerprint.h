@@ -19,8 +19,8 @@ class Fingerprint {
   // Parts are kept apart: ("ab", "c") differs from ("a", "bc").
   Fingerprint& Add(std::string_view part);
   Fingerprint& Add(double number);
-  // The content, not the name or age; a file that cannot be read counts as empty. For a .gltf or .glb also the
-  // files it names, each once, for a folder all its .py files, in order of their names.
+  // The content, not the name or age; a file that cannot be read counts as empty. For a .gltf, .glb, .obj
+  // or CityGML also the files it names, each once, for a folder all its .py files, in order of their names.
   Fingerprint& AddFile(const std::filesystem::path& path);
   // 64 digits: SHA-256 (FIPS 180-4), which holds against whoever wants two inputs mistaken for each other. Call it
   // last.

@@ -4,8 +4,7 @@
 #include <cmath>
 #include <map>
 
-#include "pipeline/core/child_policy.h"
-#include "runtime/base/file.h"
+#include "pipeline/io/image_beside.h"
 
 namespace flaneur {
 namespace {
@@ -33,25 +32,10 @@ std::string WithoutHash(std::string_view reference) {
   return std::string(reference);
 }
 
-float Linear(float srgb) { return srgb <= 0.04045f ? srgb / 12.92f : std::pow((srgb + 0.055f) / 1.055f, 2.4f); }
-
-// PNG or JPEG, told by the content; empty: neither.
-std::string MimeTypeOf(const std::string& bytes) {
-  if (bytes.rfind("\x89PNG", 0) == 0) return "image/png";
-  if (bytes.rfind("\xFF\xD8\xFF", 0) == 0) return "image/jpeg";
-  return "";
-}
-
 // Beside the model or below its folder.
 bool ReadImage(const std::filesystem::path& model, const std::filesystem::path& relative, Image* image) {
   if (relative.empty() || relative.is_absolute() || *relative.begin() == "..") return false;
-  const std::filesystem::path path = model.parent_path() / relative;
-  std::string bytes;
-  if (CheckWithinRoots(path) || ReadTextFile(path, &bytes)) return false;
-  image->name = relative.string();
-  image->mime_type = MimeTypeOf(bytes);
-  image->bytes.assign(bytes.begin(), bytes.end());
-  return !image->mime_type.empty();
+  return ReadImageFile(model.parent_path() / relative, image);
 }
 
 }  // namespace
@@ -75,7 +59,7 @@ void CityAppearances::Leave(std::string_view name, const std::string& text) {
   else if (name == "target" && !text.empty()) looks_.back().targets.push_back(WithoutHash(Trimmed(text)));
   const std::vector<float> numbers = Numbers(text);
   if (name == "diffuseColor" && numbers.size() == 3)
-    looks_.back().color = {Linear(numbers[0]), Linear(numbers[1]), Linear(numbers[2]), 1};
+    looks_.back().color = {LinearFromSrgb(numbers[0]), LinearFromSrgb(numbers[1]), LinearFromSrgb(numbers[2]), 1};
   if (name != "textureCoordinates" || numbers.size() % 2 != 0) return;
   std::vector<Vec2>& places = coordinates_[ring_];
   if (!places.empty()) return;  // another theme's
@@ -116,7 +100,7 @@ std::vector<int> AddMaterials(const std::filesystem::path& model, const std::vec
   }
   if (unread > 0 && warnings)
     warnings->push_back(model.string() + ": " + std::to_string(unread) + " textures, such as '" + first_unread +
-                        "', are no PNG or JPEG files beside the model; their surfaces are plain");
+                        "', are no PNG, JPEG or WebP files beside the model; their surfaces are plain");
   return numbers;
 }
 

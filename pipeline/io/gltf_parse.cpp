@@ -2,7 +2,9 @@
 
 #include <tiny_gltf.h>
 
+#include <algorithm>
 #include <cstring>
+#include <iterator>
 #include <nlohmann/json.hpp>
 #include <string_view>
 #include <vector>

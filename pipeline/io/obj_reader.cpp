@@ -1,8 +1,11 @@
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <cmath>
 #include <string_view>
 
+#include "pipeline/io/image_beside.h"
+#include "pipeline/io/obj_materials.h"
 #include "pipeline/io/scene_reader.h"
 #include "pipeline/io/town_builder.h"
 #include "runtime/base/file.h"
@@ -17,6 +20,7 @@ constexpr double kFlatter = 0.5;
 constexpr double kUpright = 0.02;
 // Map coordinates: eastings and northings are far larger than heights.
 constexpr double kMapCoordinate_m = 10'000;
+constexpr uint32_t kNoPlace = ~0u;  // of a corner without texture coordinates
 
 std::string_view NextWord(std::string_view* line) {
   const auto is_space = [](char c) { return c == ' ' || c == '\t' || c == '\r'; };
@@ -62,37 +66,74 @@ class Reader {
   Error TakeLine(std::string_view line) {
     const std::string_view key = NextWord(&line);
     if (key == "v") return TakeVertex(line);
+    if (key == "vt") return TakeTexturePlace(line);
     if (key == "f") return TakeFace(line);
+    if (key == "mtllib") materials_.AddLibraries(path_, Rest(line));
+    if (key == "usemtl") by_material_.push_back({std::string(Rest(line)), sizes_.size()});
     if (key == "o") by_object_.push_back({std::string(Rest(line)), sizes_.size()});
     if (key == "g") by_group_.push_back({std::string(Rest(line)), sizes_.size()});
     return Ok();
   }
 
+  static bool ReadNumber(std::string_view word, double* value) {
+    if (!word.empty() && word[0] == '+') word.remove_prefix(1);
+    const auto [end, problem] = std::from_chars(word.data(), word.data() + word.size(), *value);
+    return problem == std::errc() && end == word.data() + word.size() && std::isfinite(*value);
+  }
+
+  // A place, and behind it a colour where the program that wrote it has one for each vertex.
   Error TakeVertex(std::string_view line) {
     Point3 p;
     for (double* value : {&p.x, &p.y, &p.z}) {
-      std::string_view word = NextWord(&line);
-      if (!word.empty() && word[0] == '+') word.remove_prefix(1);
-      const auto [end, problem] = std::from_chars(word.data(), word.data() + word.size(), *value);
-      if (problem != std::errc() || end != word.data() + word.size() || !std::isfinite(*value))
+      const std::string_view word = NextWord(&line);
+      if (!ReadNumber(word, value))
         return Bad("'" + std::string(word.substr(0, 20)) + "' is no coordinate; a vertex needs three numbers");
+    }
+    std::array<double, 3> rgb{};
+    const bool colored = std::all_of(rgb.begin(), rgb.end(), [&](double& v) { return ReadNumber(NextWord(&line), &v); });
+    if (colored) {
+      const auto linear = [](double v) { return LinearFromSrgb(static_cast<float>(std::clamp(v, 0.0, 1.0))); };
+      colors_.resize(points_.size(), {1, 1, 1, 1});
+      colors_.push_back({linear(rgb[0]), linear(rgb[1]), linear(rgb[2]), 1});
     }
     points_.push_back(p);
     return Ok();
   }
 
+  Error TakeTexturePlace(std::string_view line) {
+    double u = 0, v = 0;
+    std::string_view word = NextWord(&line);
+    if (!ReadNumber(word, &u)) return Bad("'" + std::string(word.substr(0, 20)) + "' is no texture coordinate");
+    word = NextWord(&line);
+    if (!word.empty() && !ReadNumber(word, &v)) return Bad("'" + std::string(word.substr(0, 20)) + "' is no texture coordinate");
+    places_.push_back({static_cast<float>(u), static_cast<float>(v)});
+    return Ok();
+  }
+
+  // A number of a face's corner, from 1 on, or counted back from the last.
+  static bool ReadIndex(std::string_view word, size_t known, uint32_t* index) {
+    int64_t value = 0;
+    const auto [end, problem] = std::from_chars(word.data(), word.data() + word.size(), value);
+    if (value < 0) value += static_cast<int64_t>(known) + 1;
+    if (problem != std::errc() || end != word.data() + word.size() || value < 1 || value > static_cast<int64_t>(known))
+      return false;
+    *index = static_cast<uint32_t>(value - 1);
+    return true;
+  }
+
   Error TakeFace(std::string_view line) {
     uint32_t count = 0;
     for (std::string_view word = NextWord(&line); !word.empty(); word = NextWord(&line), ++count) {
-      const std::string_view index = word.substr(0, word.find('/'));
-      int64_t value = 0;
-      const auto [end, problem] = std::from_chars(index.data(), index.data() + index.size(), value);
-      const auto known = static_cast<int64_t>(points_.size());
-      if (value < 0) value += known + 1;
-      if (problem != std::errc() || end != index.data() + index.size() || value < 1 || value > known)
-        return Bad("'" + std::string(word.substr(0, 20)) + "' is none of the " + std::to_string(known) +
+      const size_t slash = std::min(word.find('/'), word.size());
+      uint32_t corner = 0, place = kNoPlace;
+      if (!ReadIndex(word.substr(0, slash), points_.size(), &corner))
+        return Bad("'" + std::string(word.substr(0, 20)) + "' is none of the " + std::to_string(points_.size()) +
                    " vertices so far");
-      corners_.push_back(static_cast<uint32_t>(value - 1));
+      const std::string_view rest = word.substr(std::min(slash + 1, word.size()));
+      const std::string_view second = rest.substr(0, rest.find('/'));
+      if (!second.empty() && !ReadIndex(second, places_.size(), &place)) ++lost_places_;
+      corners_.push_back(corner);
+      corner_places_.push_back(place);
     }
     sizes_.push_back(count);
     return Ok();
@@ -141,25 +182,63 @@ class Reader {
     return y_up;
   }
 
+  std::vector<Point3> RingOf(size_t corner, size_t size, bool y_up) const {
+    std::vector<Point3> ring;
+    for (size_t i = 0; i < size; ++i) {
+      const Point3& p = points_[corners_[corner + i]];
+      ring.push_back(y_up ? Point3{p.x, -p.z, p.y} : p);
+    }
+    return ring;
+  }
+
+  PolygonLook LookOf(const ObjLook& look, size_t corner, size_t size) const {
+    PolygonLook polygon{look.material < 0 && !colors_.empty() ? white_ : look.material, {}, {}};
+    std::vector<Vec2> places;
+    for (size_t i = 0; i < size && look.has_picture; ++i) {
+      const uint32_t place = corner_places_[corner + i];
+      if (place == kNoPlace) break;
+      const Vec2 uv = places_[place];
+      places.push_back(
+          {uv.x * look.uv_scale.x + look.uv_offset.x, 1 - (uv.y * look.uv_scale.y + look.uv_offset.y)});
+    }
+    if (places.size() == size) polygon.uvs.push_back(std::move(places));
+    if (colors_.empty()) return polygon;
+    std::vector<Vec4>& colors = polygon.colors.emplace_back();
+    for (size_t i = 0; i < size; ++i) {
+      const uint32_t point = corners_[corner + i];
+      colors.push_back(point < colors_.size() ? colors_[point] : Vec4{1, 1, 1, 1});
+    }
+    return polygon;
+  }
+
   Error Build(Scene* scene, std::vector<std::string>* warnings) {
     const bool y_up = up_ == UpAxis::kJudged ? YIsUp(warnings) : up_ == UpAxis::kY;
     TownBuilder builder;
     std::vector<Object> objects = by_object_.empty() ? by_group_ : by_object_;
     if (objects.empty() || objects[0].first_face > 0) objects.insert(objects.begin(), {path_.stem().string(), 0});
-    size_t corner = 0;
+    if (!colors_.empty()) {
+      Material white;
+      white.name = "colored";
+      white.double_sided = true;
+      white_ = builder.AddMaterial(white, nullptr);
+    }
+    size_t corner = 0, material = 0;
+    ObjLook look;
     for (size_t k = 0; k < objects.size(); ++k) {
       const size_t last = k + 1 < objects.size() ? objects[k + 1].first_face : sizes_.size();
       if (last == objects[k].first_face) continue;
       const int node = builder.AddNode(objects[k].name, NodeKind::kUntagged);
       for (size_t face = objects[k].first_face; face < last; corner += sizes_[face++]) {
-        std::vector<Point3> ring;
-        for (size_t i = 0; i < sizes_[face]; ++i) {
-          const Point3& p = points_[corners_[corner + i]];
-          ring.push_back(y_up ? Point3{p.x, -p.z, p.y} : p);
-        }
-        builder.AddPolygon(node, SurfaceKind::kWall, {ring});
+        while (material < by_material_.size() && by_material_[material].first_face <= face)
+          look = materials_.Use(by_material_[material++].name, &builder);
+        builder.AddPolygon(node, SurfaceKind::kWall, {RingOf(corner, sizes_[face], y_up)},
+                           LookOf(look, corner, sizes_[face]));
       }
     }
+    materials_.Warn(path_, warnings);
+    if (lost_places_ > 0 && !places_.empty() && warnings)
+      warnings->push_back(path_.string() + ": " + std::to_string(lost_places_) +
+                          " corners name texture coordinates that are not there; their faces are plain");
     return builder.Finish(path_.string(), {"", false}, scene, nullptr, warnings);
   }
 
@@ -167,8 +246,13 @@ class Reader {
   UpAxis up_;
   int line_ = 1;
   std::vector<Point3> points_;
-  std::vector<uint32_t> corners_, sizes_;
-  std::vector<Object> by_object_, by_group_;
+  std::vector<Vec4> colors_;  // of the points, linear; as many as had one, or fewer
+  std::vector<Vec2> places_;  // in a picture
+  std::vector<uint32_t> corners_, corner_places_, sizes_;
+  std::vector<Object> by_object_, by_group_, by_material_;
+  size_t lost_places_ = 0;
+  int white_ = -1;  // the builder's material of what has colours of its own alone
+  ObjMaterials materials_;
 };
 
 }  // namespace

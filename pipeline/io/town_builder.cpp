@@ -99,6 +99,13 @@ Error ChooseAxes(const std::string& name, const MapSystem& system, Point2 middle
   return Ok();
 }
 
+template <typename T>
+std::vector<T> Joined(const std::vector<std::vector<T>>& rings) {
+  std::vector<T> joined;
+  for (const std::vector<T>& ring : rings) joined.insert(joined.end(), ring.begin(), ring.end());
+  return joined;
+}
+
 double Step(double value) { return std::floor(value / kOriginStep_m) * kOriginStep_m; }
 
 }  // namespace
@@ -133,14 +140,18 @@ int TownBuilder::AddMaterial(Material material, const Image* image) {
   return Count(kLooks) + Count(materials_) - 1;
 }
 
+int TownBuilder::ImageOf(int material) const {
+  return At(materials_, material - Count(kLooks)).base_color_image;
+}
+
 void TownBuilder::AddPolygon(int node, SurfaceKind surface, const std::vector<std::vector<Point3>>& rings,
                              const PolygonLook& look) {
   for (const auto& ring : rings)
     for (const Point3& p : ring) may_be_degrees_ &= std::abs(p.x) <= kMost_deg && std::abs(p.y) <= kMost_deg;
   const int material = look.material < 0 ? static_cast<int>(surface) : look.material;
-  if (may_be_degrees_) return waiting_.push_back({node, material, rings, look.uvs});
+  if (may_be_degrees_) return waiting_.push_back({node, material, rings, look});
   TriangulateWaiting();
-  Triangulate({node, material, rings, look.uvs});
+  Triangulate({node, material, rings, look});
 }
 
 void TownBuilder::TriangulateWaiting() {
@@ -153,13 +164,14 @@ void TownBuilder::Triangulate(const WaitingPolygon& polygon) {
   for (const auto& ring : polygon.rings) points.insert(points.end(), ring.begin(), ring.end());
   const std::vector<std::array<uint32_t, 3>> triangles = TriangulatePolygon(polygon.rings);
   if (triangles.empty()) ++without_area_;
-  std::vector<Vec2> uvs;
-  for (const auto& ring : polygon.uvs) uvs.insert(uvs.end(), ring.begin(), ring.end());
-  const bool textured = uvs.size() == points.size();
+  const std::vector<Vec2> uvs = Joined(polygon.look.uvs);
+  const std::vector<Vec4> colors = Joined(polygon.look.colors);
+  const bool textured = uvs.size() == points.size(), colored = colors.size() == points.size();
   for (const auto& [a, b, c] : triangles) {
-    triangles_.push_back(
-        {polygon.node, polygon.material, points[a], points[b], points[c], textured ? Count(uvs_) : -1});
+    triangles_.push_back({polygon.node, polygon.material, points[a], points[b], points[c],
+                          textured ? Count(uvs_) : -1, colored ? Count(colors_) : -1});
     if (textured) uvs_.insert(uvs_.end(), {uvs[a], uvs[b], uvs[c]});
+    if (colored) colors_.insert(colors_.end(), {colors[a], colors[b], colors[c]});
   }
 }
 
@@ -319,6 +331,9 @@ void TownBuilder::AddTriangles(Scene* scene) {
     }
     Mesh& mesh = scene->meshes.back();
     AddTriangle({t.a, t.b, t.c}, scene->origin_m, &mesh);
+    if (t.first_color >= 0) mesh.colors.resize(mesh.positions.size() - 3, {1, 1, 1, 1});
+    for (int k = 0; k < 3 && t.first_color >= 0; ++k) mesh.colors.push_back(At(colors_, t.first_color + k));
+    if (t.first_color < 0 && !mesh.colors.empty()) mesh.colors.resize(mesh.positions.size(), {1, 1, 1, 1});
     if (At(scene->materials, t.material).base_color_image < 0) continue;
     for (int k = 0; k < 3; ++k) mesh.uvs.push_back(t.first_uv < 0 ? Vec2{} : At(uvs_, t.first_uv + k));
   }

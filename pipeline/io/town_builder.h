@@ -16,11 +16,12 @@ struct CityCoordinates {
   bool axes_as_named;  // the first of a point is what the system's authority says, such as latitude; else always east
 };
 
-// A material of its own for a polygon, and where its corners lie in the material's picture: for each ring as many as it
-// has points, or none at all.
+// A material of its own for a polygon, and where its corners lie in the material's picture, and their own colours: for
+// each ring as many as it has points, or none at all.
 struct PolygonLook {
   int material = -1;  // as AddMaterial says; -1: that of its kind of surface
   std::vector<std::vector<Vec2>> uvs;
+  std::vector<std::vector<Vec4>> colors;  // linear
 };
 
 class TownBuilder {
@@ -32,6 +33,8 @@ class TownBuilder {
   void MarkBridge(int node);
   // Returns the material's number. `image`, if any, becomes its picture.
   int AddMaterial(Material material, const Image* image);
+  // Of a material that was added: the picture's number, for others that share it; -1: none.
+  int ImageOf(int material) const;
   // Rings without a repeated last point: the outer one, then holes. Points are x east, y north, z up, metres; or what
   // Finish makes that of. Finite. Polygons without area are counted and left out.
   void AddPolygon(int node, SurfaceKind surface, const std::vector<std::vector<Point3>>& rings,
@@ -50,12 +53,12 @@ class TownBuilder {
   struct Triangle {
     int node, material;
     Point3 a, b, c;
-    int first_uv;  // of three; -1: none
+    int first_uv, first_color;  // of three; -1: none
   };
   struct WaitingPolygon {
     int node, material;
     std::vector<std::vector<Point3>> rings;
-    std::vector<std::vector<Vec2>> uvs;
+    PolygonLook look;
   };
   void Triangulate(const WaitingPolygon& polygon);
   void TriangulateWaiting();
@@ -73,6 +76,7 @@ class TownBuilder {
   std::vector<WaitingPolygon> waiting_;  // until that is known: degrees are no plane to triangulate in
   std::vector<Triangle> triangles_;
   std::vector<Vec2> uvs_;
+  std::vector<Vec4> colors_;
   std::vector<Material> materials_;  // besides those of the kinds of surface
   std::vector<Image> images_;
   int without_area_ = 0;

@@ -43,6 +43,19 @@ TEST_F(FingerprintFiles, OfAGltfFollowTheFilesItNames) {
   EXPECT_NE(Of("house.gltf"), before);
 }
 
+TEST_F(FingerprintFiles, OfOtherModelsFollowTheirLooks) {
+  Put("town.obj", "v 0 0 0\nmtllib the town.mtl\n");
+  Put("town.gml", "<app:imageURI>wall.jpg</app:imageURI>");
+  Put("the town.mtl", "newmtl a\nmap_Kd -s 1 1 1 wall.jpg\n");
+  const std::string obj = Of("town.obj"), gml = Of("town.gml");
+  Put("wall.jpg", "other");
+  EXPECT_NE(Of("town.obj"), obj);
+  EXPECT_NE(Of("town.gml"), gml);
+  const std::string now = Of("town.obj");
+  Put("the town.mtl", "newmtl b\nmap_Kd -s 1 1 1 wall.jpg\n");
+  EXPECT_NE(Of("town.obj"), now);
+}
+
 TEST_F(FingerprintFiles, OfModelsThatNameThemselvesAndEachOtherComeToAnEnd) {
   Put("self.gltf", R"({"buffers": [{"uri": "self.gltf"}]})");
   Put("a.gltf", R"({"buffers": [{"uri": "b.gltf"}]})");

@@ -2,11 +2,14 @@
 
 #include <cmath>
 #include <fstream>
+#include <map>
 
 #include "pipeline/io/geojson.h"
 #include "pipeline/io/map_projection.h"
 #include "pipeline/io/scene_reader.h"
 #include "pipeline/io/town_builder.h"
+#include "runtime/base/array.h"
+#include "runtime/base/png.h"
 
 namespace flaneur {
 namespace {
@@ -416,6 +419,59 @@ TEST_F(CityModel, ObjWallsTellWhichWayIsUp) {
     ASSERT_EQ(Read("house.obj", text + faces), "");
     EXPECT_NEAR(Highest().z, 8, 0.01) << y_up;
   }
+}
+
+// Two walls and a floor; the library and the picture are named as programs on other systems name them.
+constexpr const char* kLookedAtObj =
+    "mtllib Die Stadt.mtl\r\nv 0 0 0\r\nv 4 0 0\r\nv 4 0 3\r\nv 0 0 3\r\nv 0 4 0\r\nv 4 4 0\r\n"
+    "vt 0 0\r\nvt 1 0\r\nvt 1 1\r\nvt 0 1\r\n"
+    "usemtl brick\r\nf 1/1 2/2 3/3 4/4\r\nusemtl red\r\nf 1 2 6 5\r\nusemtl lost\r\nf 4 3 2 1\r\n";
+
+TEST_F(CityModel, ObjWearsItsMaterials) {
+  std::ofstream(folder_ / "Die Stadt.mtl") << "newmtl brick\r\nKd 0 0 0\r\n"
+                                              "map_Kd -s 2 1 1 -o 0 0.5 C:\\Anna\\a wall.png\r\n"
+                                              "newmtl red\r\nKd 1 0 0\r\nd 0.5\r\n";
+  const std::vector<uint8_t> png = EncodePng(1, 1, 3, {10, 20, 30});
+  std::ofstream(folder_ / "a wall.png", std::ios::binary)
+      .write(reinterpret_cast<const char*>(png.data()), static_cast<std::streamsize>(png.size()));
+  ASSERT_EQ(Read("town.obj", kLookedAtObj), "");
+  EXPECT_EQ(warnings_.size(), 1u) << "which way is up";
+  ASSERT_EQ(scene_.images.size(), 1u);
+  EXPECT_EQ(scene_.images[0].bytes, png);
+  std::map<std::string, const Mesh*> by_material;
+  for (const Mesh& mesh : scene_.meshes) by_material[At(scene_.materials, mesh.material).name] = &mesh;
+  const auto look = [&](const char* name) { return At(scene_.materials, by_material.at(name)->material); };
+  EXPECT_EQ(look("brick").base_color_image, 0);
+  EXPECT_EQ(look("brick").base_color.x, 1) << "the picture as it is";
+  EXPECT_EQ(look("red").base_color.y, 0);
+  EXPECT_EQ(look("red").alpha, Material::Alpha::kBlend);
+  ASSERT_EQ(by_material.size(), 3u) << "what no library has is plain";
+  const Mesh& brick = *by_material.at("brick");
+  ASSERT_EQ(brick.uvs.size(), 6u);
+  for (size_t i = 0; i < 6; ++i) {
+    const Vec3 p = GroundFromGltf(brick.positions[i]);
+    EXPECT_NEAR(brick.uvs[i].x, 2 * p.x / 4, 1e-6f);
+    EXPECT_NEAR(brick.uvs[i].y, 1 - (p.z / 3 + 0.5f), 1e-6f);
+  }
+}
+
+TEST_F(CityModel, ObjSaysWhichLooksAreLost) {
+  ASSERT_EQ(Read("town.obj", kLookedAtObj), "");
+  ASSERT_EQ(warnings_.size(), 2u);
+  EXPECT_NE((warnings_[0] + warnings_[1]).find("'Die Stadt.mtl'; their surfaces are plain"), std::string::npos) << warnings_[1];
+  std::ofstream(folder_ / "Die Stadt.mtl") << "newmtl brick\nmap_Kd wall.tga\n";
+  ASSERT_EQ(Read("town.obj", kLookedAtObj), "");
+  ASSERT_EQ(warnings_.size(), 2u);
+  EXPECT_NE((warnings_[0] + warnings_[1]).find("'wall.tga'; their surfaces are plain"), std::string::npos);
+}
+
+TEST_F(CityModel, ObjVerticesHaveColours) {
+  ASSERT_EQ(Read("town.obj", "v 0 0 0 1 0 0\nv 4 0 0 0 1 0\nv 4 0 9 0 0 1\nf 1 2 3\n"), "");
+  ASSERT_EQ(scene_.meshes.size(), 1u);
+  ASSERT_EQ(scene_.meshes[0].colors.size(), 3u);
+  EXPECT_EQ(scene_.meshes[0].colors[0].x, 1);
+  EXPECT_EQ(scene_.meshes[0].colors[1].x, 0);
+  EXPECT_EQ(At(scene_.materials, scene_.meshes[0].material).base_color.y, 1) << "on white";
 }
 
 TEST_F(CityModel, BadObjIsNamedByLine) {
