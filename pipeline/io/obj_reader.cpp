@@ -20,7 +20,7 @@ constexpr double kFlatter = 0.5;
 constexpr double kUpright = 0.02;
 // Map coordinates: eastings and northings are far larger than heights.
 constexpr double kMapCoordinate_m = 10'000;
-constexpr uint32_t kNoPlace = ~0u;  // of a corner without texture coordinates
+constexpr uint32_t kNone = ~0u;  // of a corner's texture coordinates or normal
 
 std::string_view NextWord(std::string_view* line) {
   const auto is_space = [](char c) { return c == ' ' || c == '\t' || c == '\r'; };
@@ -67,6 +67,7 @@ class Reader {
     const std::string_view key = NextWord(&line);
     if (key == "v") return TakeVertex(line);
     if (key == "vt") return TakeTexturePlace(line);
+    if (key == "vn") return TakeNormal(line);
     if (key == "f") return TakeFace(line);
     if (key == "mtllib") materials_.AddLibraries(path_, Rest(line));
     if (key == "usemtl") by_material_.push_back({std::string(Rest(line)), sizes_.size()});
@@ -110,6 +111,17 @@ class Reader {
     return Ok();
   }
 
+  Error TakeNormal(std::string_view line) {
+    std::array<double, 3> n{};
+    for (double& value : n) {
+      const std::string_view word = NextWord(&line);
+      if (!ReadNumber(word, &value)) return Bad("'" + std::string(word.substr(0, 20)) + "' is no part of a normal");
+    }
+    normals_.push_back(
+        Normalized(Vec3{static_cast<float>(n[0]), static_cast<float>(n[1]), static_cast<float>(n[2])}));
+    return Ok();
+  }
+
   // A number of a face's corner, from 1 on, or counted back from the last.
   static bool ReadIndex(std::string_view word, size_t known, uint32_t* index) {
     int64_t value = 0;
@@ -125,15 +137,18 @@ class Reader {
     uint32_t count = 0;
     for (std::string_view word = NextWord(&line); !word.empty(); word = NextWord(&line), ++count) {
       const size_t slash = std::min(word.find('/'), word.size());
-      uint32_t corner = 0, place = kNoPlace;
+      uint32_t corner = 0, place = kNone, normal = kNone;
       if (!ReadIndex(word.substr(0, slash), points_.size(), &corner))
         return Bad("'" + std::string(word.substr(0, 20)) + "' is none of the " + std::to_string(points_.size()) +
                    " vertices so far");
       const std::string_view rest = word.substr(std::min(slash + 1, word.size()));
-      const std::string_view second = rest.substr(0, rest.find('/'));
+      const size_t next = std::min(rest.find('/'), rest.size());
+      const std::string_view second = rest.substr(0, next), third = rest.substr(std::min(next + 1, rest.size()));
       if (!second.empty() && !ReadIndex(second, places_.size(), &place)) ++lost_places_;
       corners_.push_back(corner);
+      if (!third.empty()) ReadIndex(third, normals_.size(), &normal);  // what has none is as its face lies
       corner_places_.push_back(place);
+      corner_normals_.push_back(normal);
     }
     sizes_.push_back(count);
     return Ok();
@@ -191,12 +206,26 @@ class Reader {
     return ring;
   }
 
-  PolygonLook LookOf(const ObjLook& look, size_t corner, size_t size) const {
-    PolygonLook polygon{look.material < 0 && !colors_.empty() ? white_ : look.material, {}, {}};
+  // Of a face's corners, or empty where one of them has none.
+  std::vector<Vec3> NormalsOf(size_t corner, size_t size, bool y_up) const {
+    std::vector<Vec3> normals;
+    for (size_t i = 0; i < size; ++i) {
+      const uint32_t normal = corner_normals_[corner + i];
+      if (normal == kNone || !(Length(normals_[normal]) > 0.5f)) return {};
+      const Vec3 n = normals_[normal];
+      normals.push_back(y_up ? Vec3{n.x, -n.z, n.y} : n);
+    }
+    return normals;
+  }
+
+  PolygonLook LookOf(const ObjLook& look, size_t corner, size_t size, bool y_up) const {
+    PolygonLook polygon{look.material < 0 && !colors_.empty() ? white_ : look.material, {}, {}, {}};
+    if (std::vector<Vec3> normals = NormalsOf(corner, size, y_up); !normals.empty())
+      polygon.normals.push_back(std::move(normals));
     std::vector<Vec2> places;
     for (size_t i = 0; i < size && look.has_picture; ++i) {
       const uint32_t place = corner_places_[corner + i];
-      if (place == kNoPlace) break;
+      if (place == kNone) break;
       const Vec2 uv = places_[place];
       places.push_back(
           {uv.x * look.uv_scale.x + look.uv_offset.x, 1 - (uv.y * look.uv_scale.y + look.uv_offset.y)});
@@ -232,7 +261,7 @@ class Reader {
         while (material < by_material_.size() && by_material_[material].first_face <= face)
           look = materials_.Use(by_material_[material++].name, &builder);
         builder.AddPolygon(node, SurfaceKind::kWall, {RingOf(corner, sizes_[face], y_up)},
-                           LookOf(look, corner, sizes_[face]));
+                           LookOf(look, corner, sizes_[face], y_up));
       }
     }
     materials_.Warn(path_, warnings);
@@ -248,7 +277,8 @@ class Reader {
   std::vector<Point3> points_;
   std::vector<Vec4> colors_;  // of the points, linear; as many as had one, or fewer
   std::vector<Vec2> places_;  // in a picture
-  std::vector<uint32_t> corners_, corner_places_, sizes_;
+  std::vector<Vec3> normals_;
+  std::vector<uint32_t> corners_, corner_places_, corner_normals_, sizes_;
   std::vector<Object> by_object_, by_group_, by_material_;
   size_t lost_places_ = 0;
   int white_ = -1;  // the builder's material of what has colours of its own alone

@@ -166,12 +166,15 @@ void TownBuilder::Triangulate(const WaitingPolygon& polygon) {
   if (triangles.empty()) ++without_area_;
   const std::vector<Vec2> uvs = Joined(polygon.look.uvs);
   const std::vector<Vec4> colors = Joined(polygon.look.colors);
+  const std::vector<Vec3> normals = Joined(polygon.look.normals);
   const bool textured = uvs.size() == points.size(), colored = colors.size() == points.size();
+  const bool smooth = normals.size() == points.size();
   for (const auto& [a, b, c] : triangles) {
     triangles_.push_back({polygon.node, polygon.material, points[a], points[b], points[c],
-                          textured ? Count(uvs_) : -1, colored ? Count(colors_) : -1});
+                          textured ? Count(uvs_) : -1, colored ? Count(colors_) : -1, smooth ? Count(normals_) : -1});
     if (textured) uvs_.insert(uvs_.end(), {uvs[a], uvs[b], uvs[c]});
     if (colored) colors_.insert(colors_.end(), {colors[a], colors[b], colors[c]});
+    if (smooth) normals_.insert(normals_.end(), {normals[a], normals[b], normals[c]});
   }
 }
 
@@ -331,6 +334,8 @@ void TownBuilder::AddTriangles(Scene* scene) {
     }
     Mesh& mesh = scene->meshes.back();
     AddTriangle({t.a, t.b, t.c}, scene->origin_m, &mesh);
+    for (int k = 0; k < 3 && t.first_normal >= 0; ++k)
+      mesh.normals[mesh.normals.size() - 3 + static_cast<size_t>(k)] = GltfFromGround(At(normals_, t.first_normal + k));
     if (t.first_color >= 0) mesh.colors.resize(mesh.positions.size() - 3, {1, 1, 1, 1});
     for (int k = 0; k < 3 && t.first_color >= 0; ++k) mesh.colors.push_back(At(colors_, t.first_color + k));
     if (t.first_color < 0 && !mesh.colors.empty()) mesh.colors.resize(mesh.positions.size(), {1, 1, 1, 1});

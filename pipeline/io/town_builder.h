@@ -16,12 +16,13 @@ struct CityCoordinates {
   bool axes_as_named;  // the first of a point is what the system's authority says, such as latitude; else always east
 };
 
-// A material of its own for a polygon, and where its corners lie in the material's picture, and their own colours: for
+// A material of its own for a polygon, and of its corners the places in the material's picture, colours and normals: for
 // each ring as many as it has points, or none at all.
 struct PolygonLook {
   int material = -1;  // as AddMaterial says; -1: that of its kind of surface
   std::vector<std::vector<Vec2>> uvs;
-  std::vector<std::vector<Vec4>> colors;  // linear
+  std::vector<std::vector<Vec4>> colors;   // linear
+  std::vector<std::vector<Vec3>> normals;  // unit, in the axes of the points; else the face's own
 };
 
 class TownBuilder {
@@ -53,7 +54,7 @@ class TownBuilder {
   struct Triangle {
     int node, material;
     Point3 a, b, c;
-    int first_uv, first_color;  // of three; -1: none
+    int first_uv, first_color, first_normal;  // of three; -1: none
   };
   struct WaitingPolygon {
     int node, material;
@@ -77,6 +78,7 @@ class TownBuilder {
   std::vector<Triangle> triangles_;
   std::vector<Vec2> uvs_;
   std::vector<Vec4> colors_;
+  std::vector<Vec3> normals_;
   std::vector<Material> materials_;  // besides those of the kinds of surface
   std::vector<Image> images_;
   int without_area_ = 0;

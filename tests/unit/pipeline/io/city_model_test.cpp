@@ -474,6 +474,16 @@ TEST_F(CityModel, ObjVerticesHaveColours) {
   EXPECT_EQ(At(scene_.materials, scene_.meshes[0].material).base_color.y, 1) << "on white";
 }
 
+TEST_F(CityModel, ObjIsAsRoundAsItsNormalsSay) {
+  const std::string corners = "v 0 0 0\nv 4 0 0\nv 4 9 0\n", normals = "vn 0 0 2\nvn 1 0 1\nvn 0 1 0\n";
+  ASSERT_EQ(Read("town.obj", corners + normals + "f 1//1 2//2 3//3\nf 1//1 3//3 2\n"), "");
+  const Mesh& mesh = scene_.meshes.at(0);
+  ASSERT_EQ(mesh.normals.size(), 6u);
+  EXPECT_LT(Length(mesh.normals[1] - Normalized(Vec3{1, 0, 1})), 1e-5f);
+  EXPECT_LT(Length(mesh.normals[2] - Vec3{0, 1, 0}), 1e-5f);
+  EXPECT_LT(Length(mesh.normals[4] - Vec3{0, 0, -1}), 1e-5f) << "a face with a corner without one is flat";
+}
+
 TEST_F(CityModel, BadObjIsNamedByLine) {
   EXPECT_NE(Read("bad.obj", "v 0 0 0\nv 1 0 0\nf 1 2 3\n").find("bad.obj:3"), std::string::npos);
   EXPECT_NE(Read("bad.obj", "v 0 0 nan\n").find("bad.obj:1"), std::string::npos);
