@@ -16,6 +16,7 @@ constexpr double kStep_m = 0.3, kSlope = 0.7;  // from cell to cell: a step, and
 constexpr double kRises_m = 1;                // a wall; lower ones are steps, kerbs and parapets
 constexpr double kMaxRoofed = 0.6;            // of a piece lies under something: more, and it is a floor
 constexpr double kMaxHanging = 0.15;          // of its area, walls that hang below it: more than a model's edge has
+constexpr double kBare = 0.5;                 // of the town: ground alone, on which nothing stands
 constexpr double kMinGround = 0.1;            // of the town, the largest piece
 constexpr double kMinBesideLargest = 0.02;    // of that, any other
 constexpr double kEnoughGround = 0.3;         // of the largest piece: the town has ground already
@@ -172,7 +173,9 @@ class Finder {
   bool IsLarge(const Region& region) const { return AreaOf(region) >= kMinGround * town_m2_; }
 
   bool IsGround(const Region& region) const {
-    return region.rising_m2 > region.hanging_m2 && region.hanging_m2 < kMaxHanging * AreaOf(region) &&
+    const bool carries = region.rising_m2 > region.hanging_m2;
+    const bool is_bare = region.rising_m2 + region.hanging_m2 == 0 && AreaOf(region) > kBare * town_m2_;
+    return (carries || is_bare) && region.hanging_m2 < kMaxHanging * AreaOf(region) &&
            static_cast<double>(region.roofed) < kMaxRoofed * static_cast<double>(region.cells);
   }
 
