@@ -8,10 +8,12 @@ namespace flaneur {
 namespace {
 
 constexpr int kTownMap_px = 2048;
-constexpr float kNear_m = 55, kMaxFarHalfWidth_m = 400;  // half the widths that the maps of the town cover
+constexpr float kMaxFarHalfWidth_m = 400;                // half the width that the coarse map of the town covers
+constexpr float kLeastNear_m = 20, kMostNear_m = 55;     // of the fine one, which ends where the coarse one
+constexpr float kFarTexelAtNearsEnd = 1.0f / 300;        // has texels of so much of the distance
 constexpr float kShadowDepth_m = 140;
 constexpr float kFinePeopleDepth_m = 60;  // the longest shadows that reach from people in the fine map
-constexpr float kNearStep_m = 8;
+constexpr float kNearStep = 8.0f / 55;  // of half the fine map's width: when the eye has gone so far it is drawn anew
 constexpr float kSunStep = 0.004f;   // or when the sun has turned by so much, in radians: hardly a texel on the ground
 constexpr float kSunJump = 0.3f;     // so much of a turn is not waited for,
 constexpr float kFarthestSteps = 5;  // nor so many steps of the eye, which leave some of the near map before it
@@ -109,14 +111,14 @@ void ForgetTownShadows(ShadowMaps* maps) { maps->near.valid = maps->far.valid = 
 DrawCost UpdateTownShadows(Vec3 eye, Vec3 to_sun, float share, GLuint block_buffer, const TownView& town,
                            ShadowMaps* maps) {
   glEnable(GL_DEPTH_TEST);
-  maps->near.half_width_m = kNear_m;
-  maps->near.step_m = kNearStep_m;
-  DrawCost cost = UpdateTownMap(eye, to_sun, share, block_buffer, town, maps, &maps->near);
   // The coarse map stands still over a town that it covers, and else follows the eye.
   const Vec3 middle = (town.box.low + town.box.high) * 0.5f;
   const float reach_m = town.geometry.blocks.empty() ? 1 : Length(town.box.high - middle);
   const bool covered = reach_m <= kMaxFarHalfWidth_m;
   maps->far.half_width_m = covered ? reach_m : kMaxFarHalfWidth_m;
+  maps->near.half_width_m = std::clamp(Texel_m(maps->far) / kFarTexelAtNearsEnd, kLeastNear_m, kMostNear_m);
+  maps->near.step_m = kNearStep * maps->near.half_width_m;
+  DrawCost cost = UpdateTownMap(eye, to_sun, share, block_buffer, town, maps, &maps->near);
   maps->far.step_m = kMaxFarHalfWidth_m / 8;
   cost += UpdateTownMap(covered ? middle : eye, to_sun, share, block_buffer, town, maps, &maps->far);
   BindTextureArray(kTownShadowUnit, maps->town_texture);
