@@ -70,7 +70,8 @@ fs::path BesideObj(const fs::path& folder, std::string written) {
   if (written.size() > 1 && written.front() == '"' && written.back() == '"')
     written = written.substr(1, written.size() - 2);
   const fs::path path(written);
-  const bool below = path.is_relative() && (path.empty() || *path.begin() != "..") && written.find(':') == std::string::npos;
+  const bool below =
+      path.is_relative() && (path.empty() || *path.begin() != "..") && written.find(':') == std::string::npos;
   if (below && IsThere(folder / path)) return folder / path;
   return folder / path.filename();
 }
@@ -96,7 +97,8 @@ std::vector<fs::path> FilesOfObj(const fs::path& obj, std::string_view text) {
       std::string material_text;
       if (ReadTextFile(library, &material_text)) continue;
       ForObjLines(material_text, [&](std::string_view map, std::string_view picture) {
-        if (map == "map_Kd" || map == "map_d") files.push_back(BesideObj(library.parent_path(), ReadObjPicture(picture).file));
+        if (map == "map_Kd" || map == "map_d")
+          files.push_back(BesideObj(library.parent_path(), ReadObjPicture(picture).file));
       });
     }
   });

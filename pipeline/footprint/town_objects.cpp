@@ -39,9 +39,9 @@ const NamedMeaning kNamedMeanings[] = {
      {NodeKind::kGround, GroundKind::kGrass}},
     {{"square", "plaza", "*platz", "parvis", "piazza", "plein", "plac", "广场", "広場"},
      {NodeKind::kGround, GroundKind::kSquare}},
-    {{"ground", "terrain", "floor", "hex", "path", "pavement", "sidewalk", "landscape", "topography", "*boden", "*gelände",
-      "gelaende", "dgm", "dtm", "*pflaster", "*gehweg", "sol", "trottoir", "suelo", "terreno", "acera", "marciapiede",
-      "grond", "maaiveld", "teren", "地面", "地形"},
+    {{"ground", "terrain",  "floor",    "hex",         "path",  "pavement",  "sidewalk", "landscape", "topography",
+      "*boden", "*gelände", "gelaende", "dgm",         "dtm",   "*pflaster", "*gehweg",  "sol",       "trottoir",
+      "suelo",  "terreno",  "acera",    "marciapiede", "grond", "maaiveld",  "teren",    "地面",      "地形"},
      {NodeKind::kGround, GroundKind::kPavement}},
 };
 
@@ -233,7 +233,8 @@ TownObjects SortTown(const Scene& scene, double scale) {
     if (is_new) {
       const SceneNode& top = At(scene.nodes, root);
       const std::string name = top.name.empty() ? "node_" + std::to_string(root) : top.name;
-      if (node.kind == NodeKind::kUntagged && kind == ObstacleKind::kBuilding) untagged.push_back(town.obstacles.size());
+      if (node.kind == NodeKind::kUntagged && kind == ObstacleKind::kBuilding)
+        untagged.push_back(town.obstacles.size());
       town.obstacles.push_back({name, kind, top.radius_m, {}, {}, min, max});
       if (top.is_bridge) town.obstacles.back().kind = ObstacleKind::kOther, town.obstacles.back().is_bridge = true;
     }

@@ -39,11 +39,11 @@ struct TownObjects {
 };
 
 // Parts of one tagged node are one object. Untagged nodes are told by the words of their names (tree; lamp, lantern;
-// road, street, grass, square, ground, terrain, floor, hex, path and the like, in other languages too, unless too high for ground), flat ones
-// are ground (where a town has no other, only if they are large beside its houses, and not those high within another
-// object: flat roofs), and the rest are buildings, but for the ground that they hold where the town has no other
-// (untold_ground.h). Nodes tagged none, door, exit or loiter are left out. `scale` turns
-// the scene's units into metres. Degenerate triangles are kept.
+// road, street, grass, square, ground, terrain, floor, hex, path and the like, in other languages too, unless too high
+// for ground), flat ones are ground (where a town has no other, only if they are large beside its houses, and not those
+// high within another object: flat roofs), and the rest are buildings, but for the ground that they hold where the town
+// has no other (untold_ground.h). Nodes tagged none, door, exit or loiter are left out. `scale` turns the scene's units
+// into metres. Degenerate triangles are kept.
 TownObjects SortTown(const Scene& scene, double scale);
 
 }  // namespace flaneur

@@ -11,17 +11,17 @@ namespace flaneur {
 namespace {
 
 constexpr double kCell_m = 0.5, kMaxCells = 500'000;  // of the raster; larger ones in a wide town
-constexpr double kUpwards = 0.6;              // of a face's normal, what shows upwards where one could walk
-constexpr double kStep_m = 0.3, kSlope = 0.7;  // from cell to cell: a step, and as much of the cell's width
-constexpr double kRises_m = 1;                // a wall; lower ones are steps, kerbs and parapets
-constexpr double kMaxRoofed = 0.6;            // of a piece lies under something: more, and it is a floor
-constexpr double kMaxHanging = 0.15;          // of its area, walls that hang below it: more than a model's edge has
-constexpr double kBare = 0.5;                 // of the town: ground alone, on which nothing stands
-constexpr double kMinGround = 0.1;            // of the town, the largest piece
-constexpr double kMinBesideLargest = 0.02;    // of that, any other
-constexpr double kEnoughGround = 0.3;         // of the largest piece: the town has ground already
-constexpr double kOnGround_m = 0.15;          // faces so little over it are kerbs and roads, and ground too
-constexpr double kMinLeft = 0.02;             // of an object's area, or nothing of it is left
+constexpr double kUpwards = 0.6;                      // of a face's normal, what shows upwards where one could walk
+constexpr double kStep_m = 0.3, kSlope = 0.7;         // from cell to cell: a step, and as much of the cell's width
+constexpr double kRises_m = 1;                        // a wall; lower ones are steps, kerbs and parapets
+constexpr double kMaxRoofed = 0.6;                    // of a piece lies under something: more, and it is a floor
+constexpr double kMaxHanging = 0.15;        // of its area, walls that hang below it: more than a model's edge has
+constexpr double kBare = 0.5;               // of the town: ground alone, on which nothing stands
+constexpr double kMinGround = 0.1;          // of the town, the largest piece
+constexpr double kMinBesideLargest = 0.02;  // of that, any other
+constexpr double kEnoughGround = 0.3;       // of the largest piece: the town has ground already
+constexpr double kOnGround_m = 0.15;        // faces so little over it are kerbs and roads, and ground too
+constexpr double kMinLeft = 0.02;           // of an object's area, or nothing of it is left
 constexpr size_t kNone = static_cast<size_t>(-1);
 
 Point3 NormalTimesArea(const Triangle3& t) {
@@ -103,8 +103,8 @@ class Finder {
     DisjointSets sets(surface_.height_m.size());
     const double step_m = kStep_m + kSlope * static_cast<double>(surface_.cell_m);
     const auto join = [&](size_t a, size_t b) {
-      const bool on = Known(a) && Known(b) &&
-                      std::abs(static_cast<double>(surface_.height_m[a] - surface_.height_m[b])) <= step_m;
+      const bool on =
+          Known(a) && Known(b) && std::abs(static_cast<double>(surface_.height_m[a] - surface_.height_m[b])) <= step_m;
       if (on) sets.Join(a, b);
     };
     ForCells([&](int column, int row, size_t cell) {
@@ -248,8 +248,10 @@ class Finder {
     object->min_m = object->max_m = object->triangles[0][0];
     for (const Triangle3& t : object->triangles) {
       for (const Point3& p : t) {
-        object->min_m = {std::min(object->min_m.x, p.x), std::min(object->min_m.y, p.y), std::min(object->min_m.z, p.z)};
-        object->max_m = {std::max(object->max_m.x, p.x), std::max(object->max_m.y, p.y), std::max(object->max_m.z, p.z)};
+        object->min_m = {std::min(object->min_m.x, p.x), std::min(object->min_m.y, p.y),
+                         std::min(object->min_m.z, p.z)};
+        object->max_m = {std::max(object->max_m.x, p.x), std::max(object->max_m.y, p.y),
+                         std::max(object->max_m.z, p.z)};
       }
     }
     return true;

@@ -233,10 +233,11 @@ void TurnToFace(Vec3 walk, bool exactly, Avatar* avatar, Mesh* body, std::vector
   warnings->push_back("the walk does not go towards +Z; the figure is turned by " + std::string(degrees) + " degrees");
 }
 
-// Turns the figure so that it walks towards +Z, and returns how fast it does, m/s. The way is that of the root's travel,
-// else of the face, else of the soles, which mistake it where they hop or slide; a face also tells it to the degree.
+// Turns the figure so that it walks towards +Z, and returns how fast it does, m/s. The way is that of the root's
+// travel, else of the face, else of the soles, which mistake it where they hop or slide; a face also tells it to the
+// degree.
 float FaceForward(Vec3 travel_mps, const std::vector<NamedBone>& told, Avatar* avatar, Mesh* body,
-                         std::vector<std::string>* warnings) {
+                  std::vector<std::string>* warnings) {
   const Clip& walk = *FindClip(*avatar, "walk");
   const bool travels = Length(travel_mps) > 0;
   const Vec3 walk_mps = travels ? travel_mps : MeasureWalk(*avatar, walk, *body);

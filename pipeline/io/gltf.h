@@ -56,10 +56,10 @@ struct ReadAvatarOptions {
 // meshes that hang on bones get one weight of 1, weights are reduced to the four heaviest and made to sum to 1, clips
 // are resampled at 30 Hz, made to loop and to walk on the spot; those of other files are taken as they are where the
 // skeletons are one, else made to fit (pipeline/rig/retarget.h). The walk's speed is that of the clip it was made from,
-// or `flaneur_walk_speed_mps` in any node's extras (in metres or in the unit of the file), else that of the root's travel, else that of
-// the sole on the ground. `warnings` gets one line for each thing left out or guessed. Errors: as for a scene and for
-// OpenMotion, no skin, a named clip, hidden node or prop that is not there, a clip that fits no way, too many joints, a
-// prop without a mesh; without any walk clip, four legs.
+// or `flaneur_walk_speed_mps` in any node's extras (in metres or in the unit of the file), else that of the root's
+// travel, else that of the sole on the ground. `warnings` gets one line for each thing left out or guessed. Errors: as
+// for a scene and for OpenMotion, no skin, a named clip, hidden node or prop that is not there, a clip that fits no
+// way, too many joints, a prop without a mesh; without any walk clip, four legs.
 Error ReadAvatar(const std::filesystem::path& path, const ReadAvatarOptions& options, Avatar* avatar,
                  std::vector<std::string>* warnings);
 

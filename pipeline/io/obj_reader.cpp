@@ -91,7 +91,8 @@ class Reader {
         return Bad("'" + std::string(word.substr(0, 20)) + "' is no coordinate; a vertex needs three numbers");
     }
     std::array<double, 3> rgb{};
-    const bool colored = std::all_of(rgb.begin(), rgb.end(), [&](double& v) { return ReadNumber(NextWord(&line), &v); });
+    const bool colored =
+        std::all_of(rgb.begin(), rgb.end(), [&](double& v) { return ReadNumber(NextWord(&line), &v); });
     if (colored) {
       const auto linear = [](double v) { return LinearFromSrgb(static_cast<float>(std::clamp(v, 0.0, 1.0))); };
       colors_.resize(points_.size(), {1, 1, 1, 1});
@@ -106,7 +107,8 @@ class Reader {
     std::string_view word = NextWord(&line);
     if (!ReadNumber(word, &u)) return Bad("'" + std::string(word.substr(0, 20)) + "' is no texture coordinate");
     word = NextWord(&line);
-    if (!word.empty() && !ReadNumber(word, &v)) return Bad("'" + std::string(word.substr(0, 20)) + "' is no texture coordinate");
+    if (!word.empty() && !ReadNumber(word, &v))
+      return Bad("'" + std::string(word.substr(0, 20)) + "' is no texture coordinate");
     places_.push_back({static_cast<float>(u), static_cast<float>(v)});
     return Ok();
   }
@@ -117,8 +119,7 @@ class Reader {
       const std::string_view word = NextWord(&line);
       if (!ReadNumber(word, &value)) return Bad("'" + std::string(word.substr(0, 20)) + "' is no part of a normal");
     }
-    normals_.push_back(
-        Normalized(Vec3{static_cast<float>(n[0]), static_cast<float>(n[1]), static_cast<float>(n[2])}));
+    normals_.push_back(Normalized(Vec3{static_cast<float>(n[0]), static_cast<float>(n[1]), static_cast<float>(n[2])}));
     return Ok();
   }
 
@@ -227,8 +228,7 @@ class Reader {
       const uint32_t place = corner_places_[corner + i];
       if (place == kNone) break;
       const Vec2 uv = places_[place];
-      places.push_back(
-          {uv.x * look.uv_scale.x + look.uv_offset.x, 1 - (uv.y * look.uv_scale.y + look.uv_offset.y)});
+      places.push_back({uv.x * look.uv_scale.x + look.uv_offset.x, 1 - (uv.y * look.uv_scale.y + look.uv_offset.y)});
     }
     if (places.size() == size) polygon.uvs.push_back(std::move(places));
     if (colors_.empty()) return polygon;

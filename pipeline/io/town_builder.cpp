@@ -140,9 +140,7 @@ int TownBuilder::AddMaterial(Material material, const Image* image) {
   return Count(kLooks) + Count(materials_) - 1;
 }
 
-int TownBuilder::ImageOf(int material) const {
-  return At(materials_, material - Count(kLooks)).base_color_image;
-}
+int TownBuilder::ImageOf(int material) const { return At(materials_, material - Count(kLooks)).base_color_image; }
 
 void TownBuilder::AddPolygon(int node, SurfaceKind surface, const std::vector<std::vector<Point3>>& rings,
                              const PolygonLook& look) {
@@ -170,8 +168,8 @@ void TownBuilder::Triangulate(const WaitingPolygon& polygon) {
   const bool textured = uvs.size() == points.size(), colored = colors.size() == points.size();
   const bool smooth = normals.size() == points.size();
   for (const auto& [a, b, c] : triangles) {
-    triangles_.push_back({polygon.node, polygon.material, points[a], points[b], points[c],
-                          textured ? Count(uvs_) : -1, colored ? Count(colors_) : -1, smooth ? Count(normals_) : -1});
+    triangles_.push_back({polygon.node, polygon.material, points[a], points[b], points[c], textured ? Count(uvs_) : -1,
+                          colored ? Count(colors_) : -1, smooth ? Count(normals_) : -1});
     if (textured) uvs_.insert(uvs_.end(), {uvs[a], uvs[b], uvs[c]});
     if (colored) colors_.insert(colors_.end(), {colors[a], colors[b], colors[c]});
     if (smooth) normals_.insert(normals_.end(), {normals[a], normals[b], normals[c]});

@@ -16,8 +16,8 @@ struct CityCoordinates {
   bool axes_as_named;  // the first of a point is what the system's authority says, such as latitude; else always east
 };
 
-// A material of its own for a polygon, and of its corners the places in the material's picture, colours and normals: for
-// each ring as many as it has points, or none at all.
+// A material of its own for a polygon, and of its corners the places in the material's picture, colours and normals:
+// for each ring as many as it has points, or none at all.
 struct PolygonLook {
   int material = -1;  // as AddMaterial says; -1: that of its kind of surface
   std::vector<std::vector<Vec2>> uvs;

@@ -192,8 +192,7 @@ bool CutToCycle(const std::vector<Joint>& joints, Clip* clip) {
       const float busiest = moved.back() / static_cast<float>(poses.size()) * static_cast<float>(n);
       if (!(way > 0.7f * busiest) || !MovesOn(moved, a, n)) continue;
       // Also one key before and after, so that it comes back the same way round.
-      const float gap = MeanDistance(poses[a], poses[a + n]) +
-                        MeanDistance(poses[a - 1], poses[a + n - 1]) +
+      const float gap = MeanDistance(poses[a], poses[a + n]) + MeanDistance(poses[a - 1], poses[a + n - 1]) +
                         MeanDistance(poses[a + 1], poses[a + n + 1]);
       const float pace = way / static_cast<float>(n);
       const bool alike = std::abs(gap / way - best) < kAlike;

@@ -31,7 +31,8 @@ void MakeLoop(const std::vector<Joint>& joints, Clip* clip, std::vector<std::str
 void DropRestPose(const std::vector<Joint>& joints, Clip* clip);
 
 // Of a long recording the stretch of 0.6 to 2.5 s that comes back nearest to where it began while it moves on all the
-// time: one cycle of a walk, without who stood before and after. False where none does well enough; the clip then stays whole.
+// time: one cycle of a walk, without who stood before and after. False where none does well enough; the clip then stays
+// whole.
 bool CutToCycle(const std::vector<Joint>& joints, Clip* clip);
 
 // The clip's first `duration_s` seconds.

@@ -15,7 +15,7 @@ constexpr size_t kSoleDirections = 16;  // that the sole's outline is kept in
 constexpr std::array<float, 6> kPitches_deg{-90, -60, -35, 35, 60, 90};  // in which the foot's tips are looked for
 constexpr float kAnkleHeight = 0.09f;                                    // of the leg's length, where nothing tells
 constexpr float kOddAngle_rad = 0.17f;
-constexpr float kShortestLeg = 0.2f;                                     // of the trunk's length
+constexpr float kShortestLeg = 0.2f;                             // of the trunk's length
 constexpr float kMinAnkle = 0.03f, kMaxAnkle = 0.25f;            // of the leg's length: where y = 0 may be the ground
 constexpr float kBall = 0.19f, kToeTip = 0.27f, kHeel = -0.06f;  // of the leg's length, before the ankle
 

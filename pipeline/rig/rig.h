@@ -76,8 +76,8 @@ bool MakeRig(const Avatar& person, const std::vector<NamedBone>& told, Rig* rig,
 // Of the 24 turns by quarters the one that brings `up` and `forward` nearest to +Y and +Z.
 Quat QuarterTurn(Vec3 up, Vec3 forward);
 
-// The same, and about the vertical by what is left where a figure stands at an odd angle: by more than 10 degrees, since
-// a body that is turned by less walks straight on.
+// The same, and about the vertical by what is left where a figure stands at an odd angle: by more than 10 degrees,
+// since a body that is turned by less walks straight on.
 Quat TurnToFront(Vec3 up, Vec3 forward);
 
 // The limb's frame: -Y along it and +Z as near to `front` as can be.

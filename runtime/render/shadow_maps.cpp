@@ -8,12 +8,12 @@ namespace flaneur {
 namespace {
 
 constexpr int kTownMap_px = 2048;
-constexpr float kMaxFarHalfWidth_m = 400;                // half the width that the coarse map of the town covers
-constexpr float kLeastNear_m = 20, kMostNear_m = 55;     // of the fine one, which ends where the coarse one
-constexpr float kFarTexelAtNearsEnd = 1.0f / 300;        // has texels of so much of the distance
+constexpr float kMaxFarHalfWidth_m = 400;             // half the width that the coarse map of the town covers
+constexpr float kLeastNear_m = 20, kMostNear_m = 55;  // of the fine one, which ends where the coarse one
+constexpr float kFarTexelAtNearsEnd = 1.0f / 300;     // has texels of so much of the distance
 constexpr float kShadowDepth_m = 140;
 constexpr float kFinePeopleDepth_m = 60;  // the longest shadows that reach from people in the fine map
-constexpr float kNearStep = 8.0f / 55;  // of half the fine map's width: when the eye has gone so far it is drawn anew
+constexpr float kNearStep = 8.0f / 55;    // of half the fine map's width: when the eye has gone so far it is drawn anew
 constexpr float kSunStep = 0.004f;   // or when the sun has turned by so much, in radians: hardly a texel on the ground
 constexpr float kSunJump = 0.3f;     // so much of a turn is not waited for,
 constexpr float kFarthestSteps = 5;  // nor so many steps of the eye, which leave some of the near map before it

@@ -239,7 +239,8 @@ constexpr std::array kTargets{
         TryBasis},
     Target{"meshopt", "bin", Structure::kBytes, {}, TryMeshopt},
     Target{"model", "glb", Structure::kGlb, {"tests/data/towns/street.glb"}, TryModel},
-    Target{"gltf", "gltf", Structure::kJson, {"tests/data/check/601.gltf", "tests/data/towns/instances.gltf"}, TryModel},
+    Target{
+        "gltf", "gltf", Structure::kJson, {"tests/data/check/601.gltf", "tests/data/towns/instances.gltf"}, TryModel},
     Target{"bvh", "bvh", Structure::kText, {}, TryMotion},
     Target{"clips", "gltf", Structure::kJson, {}, TryMotion},
     Target{"citygml", "gml", Structure::kText, {"tests/data/towns/houses.gml"}, TryScene},

@@ -52,7 +52,8 @@ TEST(UntoldGround, IsFoundWhateverItIsCalledAndHoweverItIsJoined) {
 }
 
 TEST(UntoldGround, IsNotLookedForWhereTheTownSaysWhatItIs) {
-  for (const char* name : {"terrain", "Gel\xC3\xA4nde", "Hanggel\xC3\xA4nde.001", "Boden", "DGM_5", "\xE5\x9C\xB0\xE5\xBD\xA2"}) {
+  for (const char* name :
+       {"terrain", "Gel\xC3\xA4nde", "Hanggel\xC3\xA4nde.001", "Boden", "DGM_5", "\xE5\x9C\xB0\xE5\xBD\xA2"}) {
     const TownObjects town = SortTown(Hill(name, false, false).scene, 1);
     EXPECT_NEAR(GroundArea(town), 120 * 80, 1) << name;
     EXPECT_EQ(town.obstacles.size(), 12u) << name;
@@ -77,7 +78,11 @@ TEST(UntoldGround, RoofsAndFloorsAreNone) {
 
 TEST(SortTown, KnowsWordsOfOtherLanguages) {
   TestTown town;
-  town.Node("Breite Herzogstra\xC3\x9F" "e", NodeKind::kUntagged).Box({0, 0, 0}, {30, 4, 0.5f});
+  town.Node(
+          "Breite Herzogstra\xC3\x9F"
+          "e",
+          NodeKind::kUntagged)
+      .Box({0, 0, 0}, {30, 4, 0.5f});
   town.Node("Stadtmarktplatz", NodeKind::kUntagged).Box({0, 10, 0}, {30, 30, 0.5f});
   town.Node("Kastanienbaum.003", NodeKind::kUntagged).Box({2, 12, 0}, {3, 13, 4});
   town.Node("Haus am Platz", NodeKind::kUntagged).Box({40, 10, 0}, {50, 20, 9});

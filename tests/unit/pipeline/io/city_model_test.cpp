@@ -458,7 +458,8 @@ TEST_F(CityModel, ObjWearsItsMaterials) {
 TEST_F(CityModel, ObjSaysWhichLooksAreLost) {
   ASSERT_EQ(Read("town.obj", kLookedAtObj), "");
   ASSERT_EQ(warnings_.size(), 2u);
-  EXPECT_NE((warnings_[0] + warnings_[1]).find("'Die Stadt.mtl'; their surfaces are plain"), std::string::npos) << warnings_[1];
+  EXPECT_NE((warnings_[0] + warnings_[1]).find("'Die Stadt.mtl'; their surfaces are plain"), std::string::npos)
+      << warnings_[1];
   std::ofstream(folder_ / "Die Stadt.mtl") << "newmtl brick\nmap_Kd wall.tga\n";
   ASSERT_EQ(Read("town.obj", kLookedAtObj), "");
   ASSERT_EQ(warnings_.size(), 2u);
@@ -481,7 +482,8 @@ TEST_F(CityModel, ObjIsAsRoundAsItsNormalsSay) {
   ASSERT_EQ(mesh.normals.size(), 6u);
   EXPECT_LT(Length(mesh.normals[1] - Normalized(Vec3{1, 0, 1})), 1e-5f);
   EXPECT_LT(Length(mesh.normals[2] - Vec3{0, 1, 0}), 1e-5f);
-  EXPECT_LT(Length(mesh.normals[4] - Normalized(Vec3{0, 1600, -360})), 1e-5f) << "a face with a corner without one is flat";
+  EXPECT_LT(Length(mesh.normals[4] - Normalized(Vec3{0, 1600, -360})), 1e-5f)
+      << "a face with a corner without one is flat";
 }
 
 TEST_F(CityModel, BadObjIsNamedByLine) {
