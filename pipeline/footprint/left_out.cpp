@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <map>
+#include <utility>
 
 #include "pipeline/footprint/constants.h"
 #include "pipeline/footprint/object_shape.h"
@@ -62,6 +64,16 @@ double Buried_m2(const LocalGround& ground, const TownObject& object, const Shap
   return below.empty() ? 0 : Area(Difference(InPlan(below), shape.solid));
 }
 
+// Instances of one thing have one name, and the same happens to them: said once, with how often.
+void AddOnce(const std::vector<std::string>& said, std::vector<std::string>* warnings) {
+  std::map<std::string, int> times;
+  for (const std::string& each : said) ++times[each];
+  for (const std::string& each : said) {
+    const int n = std::exchange(times[each], 0);
+    if (n > 0) warnings->push_back(n == 1 ? each : each + " (" + std::to_string(n) + " times)");
+  }
+}
+
 }  // namespace
 
 void WarnOfLeftOut(const Site& site, const TownObjects& town, const std::vector<Shape>& shapes,
@@ -69,6 +81,7 @@ void WarnOfLeftOut(const Site& site, const TownObjects& town, const std::vector<
                    std::vector<std::string>* warnings) {
   WarnOfFlat(town.flat, warnings);
   WarnOfUntold(town.untold, warnings);
+  std::vector<std::string> said;
   for (size_t i = 0; i < town.obstacles.size(); ++i) {
     const TownObject& object = town.obstacles[i];
     const Shape& shape = shapes[i];
@@ -76,20 +89,21 @@ void WarnOfLeftOut(const Site& site, const TownObjects& town, const std::vector<
         site.ground && object.kind == ObstacleKind::kBuilding ? Buried_m2(*site.ground, object, shape) : 0;
     if (has_obstacle[i]) {
       if (buried_m2 > kMinBuried_m2)
-        warnings->push_back("'" + object.name + "': parts over " + Number(buried_m2) +
-                            " m2 lie beneath the town's terrain and were left out");
+        said.push_back("'" + object.name + "': parts over " + Number(buried_m2) +
+                       " m2 lie beneath the town's terrain and were left out");
     } else if (IsRound(object) || (shape.lines == 0 && shape.solid.empty())) {
-      warnings->push_back("'" + object.name + "' leaves nothing in the way: it has no part between " +
-                          Number(site.options.band_m[0]) + " and " + Number(site.options.band_m[1]) +
-                          " m over the ground" + (buried_m2 > 0 ? "; it lies beneath the town's terrain" : ""));
+      said.push_back("'" + object.name + "' leaves nothing in the way: it has no part between " +
+                     Number(site.options.band_m[0]) + " and " + Number(site.options.band_m[1]) + " m over the ground" +
+                     (buried_m2 > 0 ? "; it lies beneath the town's terrain" : ""));
     } else if (object.is_bridge) {
-      warnings->push_back("'" + object.name + "' leaves nothing in the way: it is a bridge, and is walked over");
+      said.push_back("'" + object.name + "' leaves nothing in the way: it is a bridge, and is walked over");
     } else if (!site.options.merge_blocks) {
       const TownObject* taker = Taker(town, shapes, outlines, i);
-      warnings->push_back("'" + object.name + "' (" + Number(Area(shape.solid)) + " m2) has no obstacle of its own: " +
-                          (taker ? "it stands within '" + taker->name + "'" : "what is left of it is too small"));
+      said.push_back("'" + object.name + "' (" + Number(Area(shape.solid)) + " m2) has no obstacle of its own: " +
+                     (taker ? "it stands within '" + taker->name + "'" : "what is left of it is too small"));
     }
   }
+  AddOnce(said, warnings);
 }
 
 }  // namespace flaneur

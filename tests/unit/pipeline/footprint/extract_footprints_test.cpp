@@ -460,6 +460,11 @@ TEST(ExtractFootprints, SaysWhichObjectLeavesNothingInTheWay) {
   ASSERT_EQ(ExtractFootprints(town.scene, {}, &footprints, nullptr, &warnings).message, "");
   ASSERT_EQ(warnings.size(), 1u);
   EXPECT_NE(warnings[0].find("'sign'"), std::string::npos) << warnings[0];
+  for (float x : {27.0f, 29.0f}) town.Node("sign", NodeKind::kOther).Box({x, 5, 2.5f}, {x + 1, 5.1f, 3});
+  warnings.clear();
+  ASSERT_EQ(ExtractFootprints(town.scene, {}, &footprints, nullptr, &warnings).message, "");
+  ASSERT_EQ(warnings.size(), 1u) << "of instances once";
+  EXPECT_NE(warnings[0].find("(3 times)"), std::string::npos) << warnings[0];
 }
 
 // ---- The same every time ----
