@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cmath>
 
 #include "runtime/base/file.h"
 
@@ -9,47 +10,53 @@ namespace flaneur {
 namespace fs = std::filesystem;
 namespace {
 
-std::string_view NextWord(std::string_view* text) {
-  const auto blank = [](char c) { return static_cast<unsigned char>(c) <= ' '; };
-  while (!text->empty() && blank(text->front())) text->remove_prefix(1);
-  size_t end = 0;
-  while (end < text->size() && !blank((*text)[end])) ++end;
-  const std::string_view word = text->substr(0, end);
-  text->remove_prefix(end);
-  return word;
-}
-
-bool IsNumber(std::string_view word, float* value) {
-  const auto [end, problem] = std::from_chars(word.data(), word.data() + word.size(), *value);
-  return problem == std::errc() && end == word.data() + word.size();
-}
-
 bool IsThere(const fs::path& path) {
   std::error_code ec;
   return fs::is_regular_file(path, ec);
 }
 
-// Up to three numbers, the first two of which are taken.
-void TakeNumbers(std::string_view* text, Vec2* out) {
-  for (int i = 0; i < 3; ++i) {
-    std::string_view rest = *text;
-    float value = 0;
-    if (!IsNumber(NextWord(&rest), &value)) return;
-    if (i < 2) (i == 0 ? out->x : out->y) = value;
-    *text = rest;
-  }
+}  // namespace
+
+std::string_view NextWord(std::string_view* text) {
+  const auto is_space = [](char c) { return c == ' ' || c == '\t' || c == '\r'; };
+  while (!text->empty() && is_space(text->front())) text->remove_prefix(1);
+  size_t end = 0;
+  while (end < text->size() && !is_space((*text)[end])) ++end;
+  const std::string_view word = text->substr(0, end);
+  text->remove_prefix(end);
+  return word;
 }
 
-}  // namespace
+std::string_view Trimmed(std::string_view text) {
+  while (!text.empty() && static_cast<unsigned char>(text.front()) <= ' ') text.remove_prefix(1);
+  while (!text.empty() && static_cast<unsigned char>(text.back()) <= ' ') text.remove_suffix(1);
+  return text;
+}
+
+std::vector<float> TakeNumbers(std::string_view* text) {
+  std::vector<float> numbers;
+  while (numbers.size() < 3) {
+    std::string_view rest = *text;
+    const std::string_view word = NextWord(&rest);
+    float value = 0;
+    const auto [end, problem] = std::from_chars(word.data(), word.data() + word.size(), value);
+    if (problem != std::errc() || end != word.data() + word.size() || !std::isfinite(value)) break;
+    numbers.push_back(value);
+    *text = rest;
+  }
+  return numbers;
+}
 
 ObjPicture ReadObjPicture(std::string_view text) {
   ObjPicture picture;
-  Vec2 unused;
   while (true) {
     std::string_view rest = text;
     const std::string_view word = NextWord(&rest);
     if (word == "-s" || word == "-o" || word == "-t") {
-      TakeNumbers(&rest, word == "-s" ? &picture.scale : word == "-o" ? &picture.offset : &unused);
+      const std::vector<float> numbers = TakeNumbers(&rest);
+      Vec2* told = word == "-s" ? &picture.scale : word == "-o" ? &picture.offset : nullptr;
+      if (told && !numbers.empty()) told->x = numbers[0];
+      if (told && numbers.size() > 1) told->y = numbers[1];
     } else if (word == "-mm") {
       NextWord(&rest), NextWord(&rest);
     } else if (word == "-blendu" || word == "-blendv" || word == "-boost" || word == "-texres" || word == "-clamp" ||
@@ -60,8 +67,7 @@ ObjPicture ReadObjPicture(std::string_view text) {
     }
     text = rest;
   }
-  const size_t first = text.find_first_not_of(" \t");
-  if (first != std::string_view::npos) picture.file = text.substr(first);
+  picture.file = Trimmed(text);
   return picture;
 }
 
@@ -90,9 +96,13 @@ std::vector<fs::path> ObjLibraries(const fs::path& obj, std::string_view named) 
 
 std::vector<fs::path> FilesOfObj(const fs::path& obj, std::string_view text) {
   std::vector<fs::path> files;
-  ForObjLines(text, [&](std::string_view key, std::string_view rest) {
-    if (key != "mtllib") return;
-    for (const fs::path& library : ObjLibraries(obj, rest)) {
+  constexpr std::string_view kKey = "mtllib";  // looked for alone: nothing else in many megabytes matters
+  for (size_t at = text.find(kKey); at != std::string_view::npos; at = text.find(kKey, at)) {
+    const size_t line = text.substr(0, at).rfind('\n') + 1;  // 0 where there is none before
+    at += kKey.size();
+    std::string_view rest = text.substr(line, text.find('\n', line) - line);
+    if (NextWord(&rest) != kKey) continue;
+    for (const fs::path& library : ObjLibraries(obj, Trimmed(rest))) {
       files.push_back(library);
       std::string material_text;
       if (ReadTextFile(library, &material_text)) continue;
@@ -101,7 +111,7 @@ std::vector<fs::path> FilesOfObj(const fs::path& obj, std::string_view text) {
           files.push_back(BesideObj(library.parent_path(), ReadObjPicture(picture).file));
       });
     }
-  });
+  }
   return files;
 }
 

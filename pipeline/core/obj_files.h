@@ -10,6 +10,13 @@
 
 namespace flaneur {
 
+// Cuts the next word off, by blanks, tabs and the ends of lines; empty at the end.
+std::string_view NextWord(std::string_view* text);
+// Without blanks and the like at either end.
+std::string_view Trimmed(std::string_view text);
+// Cuts off up to three finite numbers, as many as come next.
+std::vector<float> TakeNumbers(std::string_view* text);
+
 // A map of a material library: "-s 2 2 1 wall.jpg".
 struct ObjPicture {
   std::string file;  // as it is written
@@ -35,17 +42,12 @@ std::vector<std::filesystem::path> FilesOfObj(const std::filesystem::path& obj, 
 
 template <typename Use>
 void ForObjLines(std::string_view text, Use use) {
-  const auto blank = [](char c) { return static_cast<unsigned char>(c) <= ' '; };
   while (!text.empty()) {
     const size_t end = std::min(text.find('\n'), text.size());
     std::string_view line = text.substr(0, end);
     text.remove_prefix(std::min(end + 1, text.size()));
-    while (!line.empty() && blank(line.front())) line.remove_prefix(1);
-    while (!line.empty() && blank(line.back())) line.remove_suffix(1);
-    size_t word = 0, rest = 0;
-    while (word < line.size() && !blank(line[word])) ++word;
-    for (rest = word; rest < line.size() && blank(line[rest]);) ++rest;
-    if (word > 0) use(line.substr(0, word), line.substr(rest));
+    const std::string_view word = NextWord(&line);
+    if (!word.empty()) use(word, Trimmed(line));
   }
 }
 

@@ -146,11 +146,6 @@ class FloorFinder {
   std::vector<char> is_floor_;
 };
 
-double PlanArea(const Triangle3& t) {
-  const auto& [a, b, c] = t;
-  return std::abs((b.x - a.x) * (c.y - a.y) - (c.x - a.x) * (b.y - a.y)) / 2;
-}
-
 // The lowest level faces, if all that is not upright fits over them: a house on one floor, as most are. Then there is
 // no need to ask cell by cell. Else nothing.
 std::vector<Triangle3> PlainFloorOf(const std::vector<Triangle3>& triangles) {

@@ -17,21 +17,24 @@ std::string Number(double value) {
   return text;
 }
 
+// In quotes, and how many more than `most` there are.
+std::string Listed(const std::vector<std::string>& names, size_t most) {
+  std::string list;
+  for (size_t i = 0; i < std::min(names.size(), most); ++i) list += (i > 0 ? ", '" : "'") + names[i] + "'";
+  return names.size() > most ? list + " and " + std::to_string(names.size() - most) + " more" : list;
+}
+
 void WarnOfFlat(const std::vector<std::string>& flat, std::vector<std::string>* warnings) {
   if (flat.empty()) return;
-  std::string names;
-  for (const std::string& name : flat) names += (names.empty() ? "'" : ", '") + name + "'";
   warnings->push_back(std::to_string(flat.size()) + " untagged objects no higher than " + Number(kMaxFlatHeight_m) +
-                      " m were taken for ground and block nobody: " + names);
+                      " m were taken for ground and block nobody: " + Listed(flat, flat.size()));
 }
 
 void WarnOfUntold(const std::vector<std::string>& untold, std::vector<std::string>* warnings) {
   if (untold.empty()) return;
   constexpr size_t kNamed = 8;
-  std::string names;
-  for (size_t i = 0; i < std::min(untold.size(), kNamed); ++i) names += (i > 0 ? ", '" : "'") + untold[i] + "'";
-  if (untold.size() > kNamed) names += " and " + std::to_string(untold.size() - kNamed) + " more";
-  warnings->push_back("the town's ground was found by its shape, in " + names + ": tag what it is, or give it a name");
+  warnings->push_back("the town's ground was found by its shape, in " + Listed(untold, kNamed) +
+                      ": tag what it is, or give it a name");
 }
 
 bool IsRound(const TownObject& object) {

@@ -82,15 +82,6 @@ std::vector<Triangle3> WorldTriangles(const Scene& scene, const SceneNode& node,
   return out;
 }
 
-void Grow(const std::vector<Triangle3>& triangles, Point3* min, Point3* max) {
-  for (const Triangle3& t : triangles) {
-    for (const Point3& p : t) {
-      *min = {std::min(min->x, p.x), std::min(min->y, p.y), std::min(min->z, p.z)};
-      *max = {std::max(max->x, p.x), std::max(max->y, p.y), std::max(max->z, p.z)};
-    }
-  }
-}
-
 // The topmost ancestor of the same kind: where the tag stands. Untagged nodes stand for themselves.
 int ObjectRoot(const Scene& scene, int node) {
   const NodeKind kind = At(scene.nodes, node).kind;
@@ -147,13 +138,6 @@ bool IsRoof(const FlatObject& flat, const std::vector<TownObject>& objects, cons
   return high;
 }
 
-double PlanArea(const std::vector<Triangle3>& triangles) {
-  double area_m2 = 0;
-  for (const auto& [a, b, c] : triangles)
-    area_m2 += std::abs((b.x - a.x) * (c.y - a.y) - (c.x - a.x) * (b.y - a.y)) / 2;
-  return area_m2;
-}
-
 std::vector<bool> AreRoofs(const std::vector<FlatObject>& flat, const std::vector<TownObject>& objects) {
   std::vector<BoundingBox> boxes;
   for (const TownObject& o : objects) boxes.push_back({{o.min_m.x, o.min_m.y}, {o.max_m.x, o.max_m.y}});
@@ -200,6 +184,26 @@ void TakeSlabsForBuildings(const Scene& scene, const std::vector<FlatObject>& fl
 }
 
 }  // namespace
+
+double PlanArea(const Triangle3& triangle) {
+  const auto& [a, b, c] = triangle;
+  return std::abs((b.x - a.x) * (c.y - a.y) - (c.x - a.x) * (b.y - a.y)) / 2;
+}
+
+double PlanArea(const std::vector<Triangle3>& triangles) {
+  double area_m2 = 0;
+  for (const Triangle3& t : triangles) area_m2 += PlanArea(t);
+  return area_m2;
+}
+
+void Grow(const std::vector<Triangle3>& triangles, Point3* min, Point3* max) {
+  for (const Triangle3& t : triangles) {
+    for (const Point3& p : t) {
+      *min = {std::min(min->x, p.x), std::min(min->y, p.y), std::min(min->z, p.z)};
+      *max = {std::max(max->x, p.x), std::max(max->y, p.y), std::max(max->z, p.z)};
+    }
+  }
+}
 
 TownObjects SortTown(const Scene& scene, double scale) {
   TownObjects town;

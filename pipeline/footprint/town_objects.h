@@ -12,6 +12,10 @@ namespace flaneur {
 
 using Triangle3 = std::array<Point3, 3>;
 
+double PlanArea(const Triangle3& triangle);  // seen from above
+double PlanArea(const std::vector<Triangle3>& triangles);
+void Grow(const std::vector<Triangle3>& triangles, Point3* min, Point3* max);
+
 struct TownObject {
   std::string name;  // of the topmost node that carries the tag
   ObstacleKind kind = ObstacleKind::kBuilding;

@@ -6,6 +6,7 @@
 #include "pipeline/footprint/constants.h"
 #include "pipeline/footprint/disjoint_sets.h"
 #include "pipeline/footprint/plan_raster.h"
+#include "pipeline/footprint/welded_shell.h"
 
 namespace flaneur {
 namespace {
@@ -24,19 +25,13 @@ constexpr double kOnGround_m = 0.15;        // faces so little over it are kerbs
 constexpr double kMinLeft = 0.02;           // of an object's area, or nothing of it is left
 constexpr size_t kNone = static_cast<size_t>(-1);
 
-Point3 NormalTimesArea(const Triangle3& t) {
-  const auto& [a, b, c] = t;
-  const double ux = b.x - a.x, uy = b.y - a.y, uz = b.z - a.z, vx = c.x - a.x, vy = c.y - a.y, vz = c.z - a.z;
-  return {(uy * vz - uz * vy) / 2, (uz * vx - ux * vz) / 2, (ux * vy - uy * vx) / 2};
-}
-
-double TriangleArea(const Triangle3& t) {
-  const Point3 n = NormalTimesArea(t);
-  return std::hypot(n.x, n.y, n.z);
+double AreaOf(const Triangle3& t) {
+  const Point3 n = NormalOf(t);
+  return std::hypot(n.x, n.y, n.z) / 2;
 }
 
 bool ShowsUpwards(const Triangle3& t, bool either_way) {
-  const Point3 n = NormalTimesArea(t);
+  const Point3 n = NormalOf(t);
   const double up = either_way ? std::abs(n.z) : n.z;
   return up > kUpwards * std::hypot(n.x, n.y, n.z);
 }
@@ -77,8 +72,7 @@ class Finder {
       max_m_ = {std::max(max_m_.x, o.max_m.x), std::max(max_m_.y, o.max_m.y)};
     }
     town_m2_ = (max_m_.x - min_m_.x) * (max_m_.y - min_m_.y);
-    for (const GroundPatch& patch : town_.ground)
-      for (const Triangle3& t : patch.triangles) known_m2_ += std::abs(NormalTimesArea(t).z);
+    for (const GroundPatch& patch : town_.ground) known_m2_ += PlanArea(patch.triangles);
   }
 
   // The lowest face that shows upwards, cell by cell.
@@ -141,8 +135,8 @@ class Finder {
         if (region == kNone || std::find(seen.begin(), seen.end(), region) != seen.end()) return;
         seen.push_back(region);
         const auto z = static_cast<double>(surface_.height_m[cell]);
-        if (high > z + kRises_m && low < z + kRises_m) regions_[region].rising_m2 += TriangleArea(t);
-        if (low < z - kRises_m && high < z + kRises_m) regions_[region].hanging_m2 += TriangleArea(t);
+        if (high > z + kRises_m && low < z + kRises_m) regions_[region].rising_m2 += AreaOf(t);
+        if (low < z - kRises_m && high < z + kRises_m) regions_[region].hanging_m2 += AreaOf(t);
       });
     });
   }
@@ -165,27 +159,27 @@ class Finder {
     }
   }
 
-  double AreaOf(const Region& region) const {
+  double Area(const Region& region) const {
     return static_cast<double>(region.cells) * static_cast<double>(surface_.cell_m) *
            static_cast<double>(surface_.cell_m);
   }
 
-  bool IsLarge(const Region& region) const { return AreaOf(region) >= kMinGround * town_m2_; }
+  bool IsLarge(const Region& region) const { return Area(region) >= kMinGround * town_m2_; }
 
   bool IsGround(const Region& region) const {
     const bool carries = region.rising_m2 > region.hanging_m2;
-    const bool is_bare = region.rising_m2 + region.hanging_m2 == 0 && AreaOf(region) > kBare * town_m2_;
-    return (carries || is_bare) && region.hanging_m2 < kMaxHanging * AreaOf(region) &&
+    const bool is_bare = region.rising_m2 + region.hanging_m2 == 0 && Area(region) > kBare * town_m2_;
+    return (carries || is_bare) && region.hanging_m2 < kMaxHanging * Area(region) &&
            static_cast<double>(region.roofed) < kMaxRoofed * static_cast<double>(region.cells);
   }
 
   bool Choose() {
     double largest_m2 = 0;
     for (const Region& region : regions_)
-      if (IsGround(region)) largest_m2 = std::max(largest_m2, AreaOf(region));
+      if (IsGround(region)) largest_m2 = std::max(largest_m2, Area(region));
     if (largest_m2 < kMinGround * town_m2_ || known_m2_ > kEnoughGround * largest_m2) return false;
     for (const Region& region : regions_)
-      ground_.push_back(IsGround(region) && AreaOf(region) >= kMinBesideLargest * largest_m2);
+      ground_.push_back(IsGround(region) && Area(region) >= kMinBesideLargest * largest_m2);
     return true;
   }
 
@@ -238,7 +232,7 @@ class Finder {
     double all_m2 = 0, rest_m2 = 0;
     for (const Triangle3& t : object->triangles) {
       const bool on = IsOnGround(t);
-      all_m2 += TriangleArea(t), rest_m2 += on ? 0 : TriangleArea(t);
+      all_m2 += AreaOf(t), rest_m2 += on ? 0 : AreaOf(t);
       (on ? ground->triangles : rest).push_back(t);
     }
     if (rest.size() == object->triangles.size()) return true;
@@ -246,14 +240,7 @@ class Finder {
     if (rest.empty() || rest_m2 < kMinLeft * all_m2) return false;
     object->triangles = std::move(rest);
     object->min_m = object->max_m = object->triangles[0][0];
-    for (const Triangle3& t : object->triangles) {
-      for (const Point3& p : t) {
-        object->min_m = {std::min(object->min_m.x, p.x), std::min(object->min_m.y, p.y),
-                         std::min(object->min_m.z, p.z)};
-        object->max_m = {std::max(object->max_m.x, p.x), std::max(object->max_m.y, p.y),
-                         std::max(object->max_m.z, p.z)};
-      }
-    }
+    Grow(object->triangles, &object->min_m, &object->max_m);
     return true;
   }
 

@@ -85,26 +85,32 @@ bool SaysOtherwise(const std::string& name, const std::string& word) {
   return any(letters) || std::any_of(ideographs.begin(), ideographs.end(), [&](auto w) { return Contains(name, w); });
 }
 
-// -1: none. Of several names that contain the word, or else say it in another, the shortest is the plainest; file order
-// breaks ties. Who walks may do so with a weapon where there is no other walk; who stands does not hang in the air.
-int GuessClip(const std::vector<std::string>& names, const std::string& word) {
-  for (const bool by_word : {true, false}) {
-    int best = -1;
-    bool best_says_more = false;
-    for (size_t i = 0; i < names.size(); ++i) {
-      const std::string name = Lower(names[i]);
-      const size_t space = name.find_last_of('|');
-      if (name == word || (space != std::string::npos && name.substr(space + 1) == word)) return static_cast<int>(i);
-      const bool says_more = SaysMore(names[i]);
-      const bool says_it = by_word ? Contains(name, word) : SaysOtherwise(names[i], word);
-      if (!says_it || (says_more && (word == "idle" || word == "talk"))) continue;
-      const bool is_plainer =
-          says_more != best_says_more ? best_says_more : best >= 0 && name.size() < At(names, best).size();
-      if (best < 0 || is_plainer) best = static_cast<int>(i), best_says_more = says_more;
-    }
-    if (best >= 0) return best;
+// Of the names that say it the shortest is the plainest; file order breaks ties. Who walks may do so with a weapon
+// where there is no other walk; who stands does not hang in the air. -1: none.
+template <typename SaysIt>
+int PlainestClip(const std::vector<std::string>& names, const std::string& word, SaysIt says_it) {
+  int best = -1;
+  bool best_says_more = false;
+  for (size_t i = 0; i < names.size(); ++i) {
+    const bool says_more = SaysMore(names[i]);
+    if (!says_it(names[i]) || (says_more && (word == "idle" || word == "talk"))) continue;
+    const bool is_plainer =
+        says_more != best_says_more ? best_says_more : best >= 0 && names[i].size() < At(names, best).size();
+    if (best < 0 || is_plainer) best = static_cast<int>(i), best_says_more = says_more;
   }
-  return -1;
+  return best;
+}
+
+// That very name, else one that contains the word, else one that says it in another. -1: none.
+int GuessClip(const std::vector<std::string>& names, const std::string& word) {
+  const auto is_named = [&](const std::string& name) {
+    return Lower(name).substr(Lower(name).find_last_of('|') + 1) == word;
+  };
+  const auto named = std::find_if(names.begin(), names.end(), is_named);
+  if (named != names.end()) return static_cast<int>(named - names.begin());
+  const int plain = PlainestClip(names, word, [&](const std::string& name) { return Contains(Lower(name), word); });
+  return plain >= 0 ? plain
+                    : PlainestClip(names, word, [&](const std::string& name) { return SaysOtherwise(name, word); });
 }
 
 // Of that very name, upper and lower case alike; what a program writes before a bar need not be given.

@@ -5,6 +5,7 @@
 #include <map>
 
 #include "pipeline/io/image_beside.h"
+#include "runtime/base/srgb.h"
 
 namespace flaneur {
 namespace {
@@ -35,6 +36,7 @@ std::string WithoutHash(std::string_view reference) {
 // Beside the model or below its folder.
 bool ReadImage(const std::filesystem::path& model, const std::filesystem::path& relative, Image* image) {
   if (relative.empty() || relative.is_absolute() || *relative.begin() == "..") return false;
+  image->name = relative.string();
   return ReadImageFile(model.parent_path() / relative, image);
 }
 

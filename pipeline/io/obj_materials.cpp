@@ -1,32 +1,23 @@
 #include "pipeline/io/obj_materials.h"
 
 #include <algorithm>
-#include <charconv>
-#include <cmath>
 #include <utility>
 
 #include "pipeline/core/child_policy.h"
 #include "pipeline/core/obj_files.h"
 #include "pipeline/io/image_beside.h"
 #include "runtime/base/file.h"
+#include "runtime/base/srgb.h"
 
 namespace flaneur {
 namespace fs = std::filesystem;
 namespace {
 
-// As many as there are, up to three.
-std::vector<float> Numbers(std::string_view text) {
-  std::vector<float> numbers;
-  const char *at = text.data(), *end = at + text.size();
-  while (numbers.size() < 3) {
-    while (at < end && static_cast<unsigned char>(*at) <= ' ') ++at;
-    float value = 0;
-    const auto [next, problem] = std::from_chars(at, end, value);
-    if (problem != std::errc() || !std::isfinite(value)) break;
-    numbers.push_back(std::clamp(value, 0.0f, 1.0f));
-    at = next;
-  }
-  return numbers;
+// From 0 to 1, as many as there are, up to three.
+std::vector<float> Shares(std::string_view text) {
+  std::vector<float> shares = TakeNumbers(&text);
+  for (float& share : shares) share = std::clamp(share, 0.0f, 1.0f);
+  return shares;
 }
 
 }  // namespace
@@ -52,10 +43,10 @@ void ObjMaterials::AddLibrary(const fs::path& library) {
     if (entry == nullptr) return;
     Vec4& color = entry->material.base_color;
     if (key == "Kd") {
-      const std::vector<float> rgb = Numbers(rest);
+      const std::vector<float> rgb = Shares(rest);
       if (rgb.size() == 3) color = {LinearFromSrgb(rgb[0]), LinearFromSrgb(rgb[1]), LinearFromSrgb(rgb[2]), color.w};
     } else if (key == "d" || key == "Tr") {
-      const std::vector<float> alpha = Numbers(rest);
+      const std::vector<float> alpha = Shares(rest);
       if (!alpha.empty()) color.w = key == "d" ? alpha[0] : 1 - alpha[0];
     } else if (key == "map_Kd") {
       const ObjPicture picture = ReadObjPicture(rest);
@@ -75,21 +66,18 @@ ObjLook ObjMaterials::Use(const std::string& name, TownBuilder* builder) {
   if (std::exchange(entry.used, true)) return entry.look;
   Material& material = entry.material;
   if (material.base_color.w < 1 && material.alpha == Material::Alpha::kOpaque) material.alpha = Material::Alpha::kBlend;
+  const auto known = of_picture_.find(entry.picture);
+  const bool shared = known != of_picture_.end();
   Image image;
-  if (!entry.picture.empty()) {
-    const auto known = of_picture_.find(entry.picture);
-    if (known != of_picture_.end()) {
-      material.base_color_image = known->second;
-    } else if (!ReadImageFile(entry.picture, &image)) {
-      lost_pictures_.push_back(entry.picture.filename().string());
-      entry.picture.clear();
-    }
-  }
-  entry.look.has_picture = !entry.picture.empty();
+  const bool read = !entry.picture.empty() && !shared && ReadImageFile(entry.picture, &image);
+  entry.look.has_picture = shared || read;
+  if (shared) material.base_color_image = known->second;
+  else if (read) image.name = entry.picture.filename().string();
+  else if (!entry.picture.empty()) lost_pictures_.push_back(entry.picture.filename().string());
   // Exporters write any colour beside a picture, black too; what is meant is the picture.
   if (entry.look.has_picture) material.base_color = {1, 1, 1, material.base_color.w};
-  entry.look.material = builder->AddMaterial(material, image.bytes.empty() ? nullptr : &image);
-  if (!image.bytes.empty()) of_picture_[entry.picture] = builder->ImageOf(entry.look.material);
+  entry.look.material = builder->AddMaterial(material, read ? &image : nullptr);
+  if (read) of_picture_[entry.picture] = builder->ImageOf(entry.look.material);
   return entry.look;
 }
 

@@ -4,11 +4,12 @@
 #include <cmath>
 #include <string_view>
 
-#include "pipeline/io/image_beside.h"
+#include "pipeline/core/obj_files.h"
 #include "pipeline/io/obj_materials.h"
 #include "pipeline/io/scene_reader.h"
 #include "pipeline/io/town_builder.h"
 #include "runtime/base/file.h"
+#include "runtime/base/srgb.h"
 #include "runtime/base/text.h"
 
 namespace flaneur {
@@ -21,22 +22,6 @@ constexpr double kUpright = 0.02;
 // Map coordinates: eastings and northings are far larger than heights.
 constexpr double kMapCoordinate_m = 10'000;
 constexpr uint32_t kNone = ~0u;  // of a corner's texture coordinates or normal
-
-std::string_view NextWord(std::string_view* line) {
-  const auto is_space = [](char c) { return c == ' ' || c == '\t' || c == '\r'; };
-  while (!line->empty() && is_space(line->front())) line->remove_prefix(1);
-  size_t end = 0;
-  while (end < line->size() && !is_space((*line)[end])) ++end;
-  const std::string_view word = line->substr(0, end);
-  line->remove_prefix(end);
-  return word;
-}
-
-std::string_view Rest(std::string_view line) {
-  while (!line.empty() && static_cast<unsigned char>(line.front()) <= ' ') line.remove_prefix(1);
-  while (!line.empty() && static_cast<unsigned char>(line.back()) <= ' ') line.remove_suffix(1);
-  return line;
-}
 
 class Reader {
  public:
@@ -69,10 +54,10 @@ class Reader {
     if (key == "vt") return TakeTexturePlace(line);
     if (key == "vn") return TakeNormal(line);
     if (key == "f") return TakeFace(line);
-    if (key == "mtllib") materials_.AddLibraries(path_, Rest(line));
-    if (key == "usemtl") by_material_.push_back({std::string(Rest(line)), sizes_.size()});
-    if (key == "o") by_object_.push_back({std::string(Rest(line)), sizes_.size()});
-    if (key == "g") by_group_.push_back({std::string(Rest(line)), sizes_.size()});
+    if (key == "mtllib") materials_.AddLibraries(path_, Trimmed(line));
+    if (key == "usemtl") by_material_.push_back({std::string(Trimmed(line)), sizes_.size()});
+    if (key == "o") by_object_.push_back({std::string(Trimmed(line)), sizes_.size()});
+    if (key == "g") by_group_.push_back({std::string(Trimmed(line)), sizes_.size()});
     return Ok();
   }
 
@@ -227,8 +212,10 @@ class Reader {
     for (size_t i = 0; i < size && look.has_picture; ++i) {
       const uint32_t place = corner_places_[corner + i];
       if (place == kNone) break;
-      const Vec2 uv = places_[place];
-      places.push_back({uv.x * look.uv_scale.x + look.uv_offset.x, 1 - (uv.y * look.uv_scale.y + look.uv_offset.y)});
+      const float u = places_[place].x * look.uv_scale.x + look.uv_offset.x;
+      const float v = 1 - (places_[place].y * look.uv_scale.y + look.uv_offset.y);
+      if (!std::isfinite(u) || !std::isfinite(v)) break;
+      places.push_back({u, v});
     }
     if (places.size() == size) polygon.uvs.push_back(std::move(places));
     if (colors_.empty()) return polygon;

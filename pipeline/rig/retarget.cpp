@@ -101,10 +101,8 @@ class Source {
       if (!FindStance(rig_.humanoid, pose.positions, &u, &f)) continue;
       up = up + u, forward = forward + f;
     }
-    const Quat turn = QuarterTurn(Normalized(up), Normalized(forward));
-    const Vec3 ahead = Rotated(turn, forward);
-    const Quat level = TurnAbout({0, 1, 0}, -std::atan2(ahead.x, ahead.z));
-    for (Pose& pose : motion_.poses) TurnPose(Product(level, turn), &pose);
+    const Quat turn = TurnToFront(Normalized(up), Normalized(forward), 0);
+    for (Pose& pose : motion_.poses) TurnPose(turn, &pose);
   }
 
   void TakeTravel() {

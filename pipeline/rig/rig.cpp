@@ -14,8 +14,7 @@ constexpr float kSoleBand = 0.05f;      // of the leg's length, above its lowest
 constexpr size_t kSoleDirections = 16;  // that the sole's outline is kept in
 constexpr std::array<float, 6> kPitches_deg{-90, -60, -35, 35, 60, 90};  // in which the foot's tips are looked for
 constexpr float kAnkleHeight = 0.09f;                                    // of the leg's length, where nothing tells
-constexpr float kOddAngle_rad = 0.17f;
-constexpr float kShortestLeg = 0.2f;                             // of the trunk's length
+constexpr float kShortestLeg = 0.2f;                                     // of the trunk's length
 constexpr float kMinAnkle = 0.03f, kMaxAnkle = 0.25f;            // of the leg's length: where y = 0 may be the ground
 constexpr float kBall = 0.19f, kToeTip = 0.27f, kHeel = -0.06f;  // of the leg's length, before the ankle
 
@@ -302,11 +301,11 @@ Quat QuarterTurn(Vec3 up, Vec3 forward) {
   return Normalized(Conjugate(QuatFromBasis(Cross(best_up, best_forward), best_up, best_forward)));
 }
 
-Quat TurnToFront(Vec3 up, Vec3 forward) {
+Quat TurnToFront(Vec3 up, Vec3 forward, float least_rad) {
   const Quat quarters = QuarterTurn(up, forward);
   const Vec3 ahead = Rotated(quarters, forward);
   const float left_rad = std::atan2(ahead.x, ahead.z);
-  return std::abs(left_rad) > kOddAngle_rad ? Product(TurnAbout({0, 1, 0}, -left_rad), quarters) : quarters;
+  return std::abs(left_rad) > least_rad ? Product(TurnAbout({0, 1, 0}, -left_rad), quarters) : quarters;
 }
 
 Quat LegFrame(Vec3 along, Vec3 front) {

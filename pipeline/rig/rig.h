@@ -76,9 +76,12 @@ bool MakeRig(const Avatar& person, const std::vector<NamedBone>& told, Rig* rig,
 // Of the 24 turns by quarters the one that brings `up` and `forward` nearest to +Y and +Z.
 Quat QuarterTurn(Vec3 up, Vec3 forward);
 
-// The same, and about the vertical by what is left where a figure stands at an odd angle: by more than 10 degrees,
-// since a body that is turned by less walks straight on.
-Quat TurnToFront(Vec3 up, Vec3 forward);
+// By less than 10 degrees a body may be turned that walks straight on; a figure that is turned by more stands at an odd
+// angle.
+inline constexpr float kOddAngle_rad = 0.17f;
+
+// The same, and about the vertical by what is left, where that is more than `least_rad`.
+Quat TurnToFront(Vec3 up, Vec3 forward, float least_rad = kOddAngle_rad);
 
 // The limb's frame: -Y along it and +Z as near to `front` as can be.
 Quat LegFrame(Vec3 along, Vec3 front);

@@ -455,6 +455,18 @@ TEST_F(CityModel, ObjWearsItsMaterials) {
   }
 }
 
+TEST_F(CityModel, ObjPlacesInPicturesAreFinite) {
+  const std::vector<uint8_t> png = EncodePng(1, 1, 3, {10, 20, 30});
+  std::ofstream(folder_ / "wall.png", std::ios::binary)
+      .write(reinterpret_cast<const char*>(png.data()), static_cast<std::streamsize>(png.size()));
+  for (const char* map : {"map_Kd -s nan nan wall.png", "map_Kd -s 3e38 3e38 -o 3e38 3e38 wall.png"}) {
+    std::ofstream(folder_ / "Die Stadt.mtl") << "newmtl brick\n" << map << "\n";
+    ASSERT_EQ(Read("town.obj", kLookedAtObj), "");
+    for (const Mesh& mesh : scene_.meshes)
+      for (const Vec2 uv : mesh.uvs) ASSERT_TRUE(std::isfinite(uv.x) && std::isfinite(uv.y)) << map;
+  }
+}
+
 TEST_F(CityModel, ObjSaysWhichLooksAreLost) {
   ASSERT_EQ(Read("town.obj", kLookedAtObj), "");
   ASSERT_EQ(warnings_.size(), 2u);
@@ -464,6 +476,10 @@ TEST_F(CityModel, ObjSaysWhichLooksAreLost) {
   ASSERT_EQ(Read("town.obj", kLookedAtObj), "");
   ASSERT_EQ(warnings_.size(), 2u);
   EXPECT_NE((warnings_[0] + warnings_[1]).find("'wall.tga'; their surfaces are plain"), std::string::npos);
+  std::ofstream(folder_ / "wall.tga") << "no picture that is known";
+  ASSERT_EQ(Read("town.obj", kLookedAtObj), "");
+  EXPECT_EQ(warnings_.size(), 2u);
+  EXPECT_TRUE(scene_.images.empty()) << "what cannot be read is not kept";
 }
 
 TEST_F(CityModel, ObjVerticesHaveColours) {
