@@ -71,9 +71,9 @@ void main() {
       other = beside(other, v_pictures.z);
       phase_part = beside_part;
     }
-    Known known = Known(s.weight > 0.01, k == 1 && s.weight <= 0.01, s.along / max(s.weight, 0.01));
-    Meeting m = meet(view, known, pixel);
-    Meeting others = meet(other, known, pixel);
+    Known known = Known(s.weight > 0.01, s.along / max(s.weight, 0.01));
+    Meeting m = meet(view, known, k == 0, pixel);
+    Meeting others = meet(other, known, k == 0, pixel);
     if (k == 0) {  // the phase beside adds to what has been agreed on
       m.cover = agreed_cover(m, other, second, pixel);
       others.cover = agreed_cover(others, view, first, pixel);
@@ -97,10 +97,6 @@ void main() {
   keep_share();
   float whole = 1.0 / max(s.weight, 1e-4);
   vec3 p = frame.eye.xyz + v_ray * (1.0 + s.along * whole);
-#ifndef FAST
-  vec4 clip = frame.view_projection * vec4(p, 1.0);
-  gl_FragDepth = clip.z / clip.w * 0.5 + 0.5;
-#endif
   vec3 dyed = vec3(1.0);
   if (u_tint_regions > 0.0) dyed = textureLod(u_tint_picture, s.at, max(v_level - 1.0, 0.0)).rgb;
   leave(tinted(s.color * whole, dyed), normalize(s.n), p, v_haze);

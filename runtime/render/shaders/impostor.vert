@@ -3,6 +3,7 @@
 #include "frame.glsl"
 #include "haze.glsl"
 #include "impostor_cells.glsl"
+#include "impostor_depth.glsl"
 #include "tint_choice.glsl"
 
 layout(location = ATTRIBUTE_POSITION) in vec2 a_corner;  // 0 to 1
@@ -68,6 +69,8 @@ void main() {
   choose_tints();
   v_haze = haze_at(a_place.xyz);
   gl_Position = frame.view_projection * vec4(p, 1.0);
+  float before_m = min(plane_before_axis_m(p.y - a_place.y), 0.5 * length(v_ray.xz));
+  put_as_deep_as(p - normalize(vec3(v_ray.x, 0.0, v_ray.z)) * before_m);
   v_texels = u_atlas.z / float(textureSize(u_texture, 0).x);
   v_level = max(0.0, log2(max((frame.view_projection * vec4(a_place.xyz, 1.0)).w, 0.1) / (frame.eye.w * texel_m * v_texels * size.y)));
   float between = fract(direction);
@@ -87,9 +90,6 @@ void main() {
     v_cell0 = v_cell1;
     v_origins.xy = v_origins.zw;
   }
-  // As deep as the person's front: so the ground leaves the feet, and the depth test can go before all that follows.
-  vec4 front = frame.view_projection * vec4(p - normalize(vec3(v_ray.x, 0.0, v_ray.z)) * 0.35, 1.0);
-  gl_Position.z = front.z / front.w * gl_Position.w;
 #endif
   v_look = vec4(a_look.w, between, origin0.zw);
   v_normals_level = max(0.0, v_level - log2(float(textureSize(u_texture, 0).x) / float(textureSize(u_normals, 0).x)));

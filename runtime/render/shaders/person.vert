@@ -3,6 +3,7 @@
 #include "shared.glsl"
 #include "frame.glsl"
 #include "haze.glsl"
+#include "impostor_depth.glsl"
 #include "tint_choice.glsl"
 
 layout(location = ATTRIBUTE_POSITION) in vec3 a_position;
@@ -57,14 +58,11 @@ void main() {
   v_share = a_look.yz;
   choose_tints();
   v_dyed = a_dyed.xyz;
-#ifdef FAST
-  // A prop before the person's axis stands before their impostor, which is as deep as its front.
-  if (a_look.w > 0.5) {
+  if (a_look.w > 0.5) {  // a prop before the person's axis stands before the plane of their impostor
     vec2 to_eye = normalize(frame.eye.xz - a_place.xz);
     float before_m = dot(place.xz - a_place.xz, to_eye);
-    vec4 front = frame.view_projection * vec4(place + vec3(to_eye.x, 0.0, to_eye.y) * (0.36 - 0.9 * before_m), 1.0);
-    if (before_m > -0.02) gl_Position.z = front.z / front.w * gl_Position.w;
+    float plane_m = plane_before_axis_m(place.y - a_place.y) + 0.01;
+    if (before_m > -0.02) put_as_deep_as(place + vec3(to_eye.x, 0.0, to_eye.y) * (plane_m - 0.9 * before_m));
   }
-#endif
 #endif
 }

@@ -10,7 +10,7 @@ namespace {
 
 // Of 64 x 48 pixels with three levels, half of it noise.
 PackTexture Picture(TextureFormat format) {
-  Random random(7);
+  Random random{7};
   PackTexture texture{format, 64, 48, {}};
   for (int k = 0; k < 3; ++k) {
     std::vector<uint8_t>& level = texture.levels.emplace_back(LevelBytes(format, 64 >> k, 48 >> k), uint8_t{17});
@@ -44,7 +44,7 @@ TEST(Ktx2, NothingDamagedOrCutIsRead) {
   PackTexture texture;
   for (size_t size = 0; size < file.size(); size += 7)
     EXPECT_TRUE(ReadKtx2(std::span(file).first(size), &texture)) << size;
-  Random random(3);
+  Random random{3};
   int read = 0;
   for (int k = 0; k < 2000; ++k) {
     std::vector<uint8_t> spoilt = file;

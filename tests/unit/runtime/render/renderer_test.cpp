@@ -406,19 +406,27 @@ TEST_F(Drawing, AnAtlasThatComesInPartsIsTheSame) {
   EXPECT_EQ(DrawWith(frame, &renderer), whole);
 }
 
-// What stands behind the axis but before the picture's own depth must not hide it: to the centimetre with several
-// samples a pixel.
-TEST_F(Drawing, AnImpostorHasItsDepthInThePicture) {
+// With several samples a pixel as in software: what stands behind the axis hides nothing, what stands before the feet
+// hides all, and between lies a plane that leans back, so that a counter's top hides who stands close behind it.
+TEST_F(Drawing, AnImpostorIsAsDeepAsAPlaneThatLeansBack) {
   TourPack pack = MakePack({{7.05f, 0}});  // its near face 5 cm behind the axis of a person 6 m away
   FrameInput frame = LookEast();
   pack.materials[0].base_color = {0.1f, 0.6f, 0.1f, 1};  // the wall's, and the mesh's, which is not drawn
   frame.people = {PersonAt(6, 0, -1)};
-  const int whole = RedPatch(Draw(pack, frame, {4, true, false})).count;
-  EXPECT_GT(whole, 500);
-  pack.town[0].world.m[3][0] = 6.8f;  // now 20 cm before the axis, 5 cm behind the picture's front
-  EXPECT_NEAR(RedPatch(Draw(pack, frame, {4, true, false})).count, whole, 0.1 * whole);
-  pack.town[0].world.m[3][0] = 6.7f;  // and before that
-  EXPECT_EQ(RedPatch(Draw(pack, frame, {4, true, false})).count, 0);
+  for (const int samples : {1, 4}) {
+    const auto red_before_m = [&](float before_m) {
+      pack.town[0].world.m[3][0] = 7 - before_m;
+      return RedPatch(Draw(pack, frame, {samples, true, false})).count;
+    };
+    const int whole = red_before_m(-0.05f);
+    EXPECT_GT(whole, 500);
+    EXPECT_EQ(red_before_m(0.08f), whole);
+    const int above_feet = red_before_m(0.28f), to_hip = red_before_m(0.2f);
+    EXPECT_GT(above_feet, 0);
+    EXPECT_GT(to_hip, above_feet);
+    EXPECT_LT(to_hip, 0.8 * whole);
+    EXPECT_EQ(red_before_m(0.37f), 0);
+  }
 }
 
 // Both maps of the town were due again and again, and the near one waited for the far one until it was drawn at once.
