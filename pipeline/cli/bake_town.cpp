@@ -10,6 +10,7 @@
 #include "pipeline/cli/stage_inputs.h"
 #include "pipeline/cli/town_brightness.h"
 #include "pipeline/cli/trust.h"
+#include "pipeline/cli/visit_places.h"
 #include "pipeline/cli/work_clips.h"
 #include "pipeline/core/temporary_folder.h"
 #include "pipeline/footprint/check.h"
@@ -220,6 +221,10 @@ Error CheckTown(Baking* baking, StageReport* report, Warnings* warnings) {
     warnings->push_back("footprints.accept " + std::to_string(accepted[idle].code) + " (" + accepted[idle].reason +
                         ") meets no finding any more; remove it, or correct its at_m");
   SummarizeErrors(map.findings, warnings);
+  const auto& parts = baking->parts;
+  for (std::string& nobody : PlacesNobodyReaches(parts.footprints, parts.ground, parts.path, parts.places,
+                                                 static_cast<float>(options.person_radius_m)))
+    warnings->push_back(std::move(nobody));
   ReportFindings(map.findings, report, whole);
   TemporaryFolder folder;
   if (Error e = folder.Create("flaneur_map_")) return e;

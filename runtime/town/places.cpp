@@ -1,6 +1,7 @@
 #include "runtime/town/places.h"
 
 #include <algorithm>
+#include <cstdio>
 
 #include "runtime/town/loitering.h"
 #include "runtime/town/painted.h"
@@ -65,6 +66,14 @@ const std::vector<int>& Destinations(bool loiter, Town* town) {
   return choices->empty() ? lists.all : *choices;
 }
 
+std::string Called(const Place& place) {
+  if (!place.name.empty()) return "place '" + place.name + "' (" + place.kind + ")";
+  char at[64];
+  std::snprintf(at, sizeof at, " at (%.1f, %.1f)", static_cast<double>(place.position_m.x),
+                static_cast<double>(place.position_m.y));
+  return "the place of kind " + place.kind + at;
+}
+
 // A place of work may be where nobody walks, as behind a counter, if whoever works there never comes or goes.
 bool IsWhereItCanBe(const Place& place, bool reachable, const Town& town) {
   if (place.kind != "work" || RoomAt_m(town.walkable, place.position_m) < kLeastWorkRoom_m) return false;
@@ -126,12 +135,11 @@ void PreparePlaces(Town* town) {
       continue;
     }
     if (!reachable) {
-      town->warnings.push_back("place '" + place.name + "' cannot be reached; it is not used");
+      town->warnings.push_back(Called(place) + " cannot be reached; it is not used");
       continue;
     }
     if (!IsGate(place) && InsideObstacle(town->walkable, place.position_m)) {
-      town->warnings.push_back("place '" + place.name + "' (" + place.kind +
-                               ") is inside an obstacle; the nearest free ground is taken");
+      town->warnings.push_back(Called(place) + " is inside an obstacle; the nearest free ground is taken");
     }
     place.position_m = CellCenter(town->walkable, cell);
     kept.push_back(place);
