@@ -70,10 +70,22 @@ LevelLikeness MeasureLevel(const MeasureOptions& o, int avatar, Level level, flo
   return out;
 }
 
+// Who is never seen to walk has one picture of it, and is seen as they stand.
+ClipKind ClipSeen(ClipKind wished, const PackImpostor& impostor) {
+  int walk = 0, idle = 0;
+  for (const ImpostorClip& clip : impostor.clips) {
+    if (clip.name == "walk") walk = clip.phases;
+    if (clip.name == "idle") idle = clip.phases;
+  }
+  return wished == ClipKind::kWalk && walk <= 1 && idle > walk ? ClipKind::kIdle : wished;
+}
+
 }  // namespace
 
-AvatarLikeness Measure(const MeasureOptions& options, int avatar, PortraitStudio* studio) {
+AvatarLikeness Measure(const MeasureOptions& wished, int avatar, PortraitStudio* studio) {
   const PackAvatar& a = studio->pack().avatars[static_cast<size_t>(avatar)];
+  MeasureOptions options = wished;
+  options.clip = ClipSeen(options.clip, a.impostor);
   AvatarLikeness out;
   out.name = a.name;
   for (int level = 1; level <= static_cast<int>(a.levels.size()); ++level) {

@@ -1,7 +1,6 @@
 #include "runtime/town/places.h"
 
 #include <algorithm>
-#include <cstdio>
 
 #include "runtime/town/loitering.h"
 #include "runtime/town/painted.h"
@@ -66,13 +65,7 @@ const std::vector<int>& Destinations(bool loiter, Town* town) {
   return choices->empty() ? lists.all : *choices;
 }
 
-std::string Called(const Place& place) {
-  if (!place.name.empty()) return "place '" + place.name + "' (" + place.kind + ")";
-  char at[64];
-  std::snprintf(at, sizeof at, " at (%.1f, %.1f)", static_cast<double>(place.position_m.x),
-                static_cast<double>(place.position_m.y));
-  return "the place of kind " + place.kind + at;
-}
+const std::string& Called(const Place& place) { return place.name.empty() ? place.kind : place.name; }
 
 // A place of work may be where nobody walks, as behind a counter, if whoever works there never comes or goes.
 bool IsWhereItCanBe(const Place& place, bool reachable, const Town& town) {
@@ -135,11 +128,12 @@ void PreparePlaces(Town* town) {
       continue;
     }
     if (!reachable) {
-      town->warnings.push_back(Called(place) + " cannot be reached; it is not used");
+      town->warnings.push_back("place '" + Called(place) + "' cannot be reached; it is not used");
       continue;
     }
     if (!IsGate(place) && InsideObstacle(town->walkable, place.position_m)) {
-      town->warnings.push_back(Called(place) + " is inside an obstacle; the nearest free ground is taken");
+      town->warnings.push_back("place '" + Called(place) + "' (" + place.kind +
+                               ") is inside an obstacle; the nearest free ground is taken");
     }
     place.position_m = CellCenter(town->walkable, cell);
     kept.push_back(place);

@@ -1,6 +1,6 @@
 // How deep an impostor is: as a plane that stands before the feet, so that the ground leaves them, and leans back to the
-// head, so that a counter or a wall before the person hides them. A depth of each pixel's own would be no test of the
-// depth before the shader, neither on graphics cards nor in software: whoever is hidden would cost as much.
+// head, so that a counter or a wall before the person hides them. Were each pixel as deep as what it shows, neither
+// graphics cards nor software could test its depth before the shader: whoever is hidden would cost as much as the seen.
 #ifndef IMPOSTOR_DEPTH_GLSL
 #define IMPOSTOR_DEPTH_GLSL
 #include "frame.glsl"

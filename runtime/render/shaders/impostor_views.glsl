@@ -87,7 +87,7 @@ View beside(View view, int cell) {
   vec4 rectangle = cell_texel(cell, 0) / u_atlas.zwzw;
   return View(view.point, view.ray, rectangle, cell_texel(cell, 1).xy / u_atlas.zw, view.turn, since);
 }
-const float k_most_steps = 5.0, k_texels_a_step = 4.0;
+const float k_most_steps = 8.0, k_texels_a_step = 3.0;
 const float k_solid = 0.1;         // coverage of a texel that can be met
 const float k_thickness_m = 0.06;  // behind the surface by more than this and a step, the ray passes behind it
 const float k_exact_m = 0.03;      // between two guesses of the depth

@@ -55,7 +55,7 @@ TEST(VisitPlaces, StopsAndPlacesInHousesInYardsAndOffTheGroundAreNamed) {
       {PlaceAt("bench", "loiter", {2.5f, 0}), PlaceAt("", "goal", {12, 12})}, 0.3f);
   const std::vector<std::string> expected = {
       "place 'bench' (loiter) is inside an obstacle; the nearest free ground is taken",
-      "the place of kind goal at (12.0, 12.0) cannot be reached; it is not used",
+      "place 'goal' cannot be reached; it is not used",
       "stop 2 is not on free ground; the tour passes near it", "stop 3 cannot be reached; the tour passes it by",
       "stop 4 cannot be reached; the tour passes it by"};
   EXPECT_EQ(said, expected);
