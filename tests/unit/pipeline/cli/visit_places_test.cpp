@@ -50,14 +50,13 @@ TEST(VisitPlaces, WhatIsFreeIsNotSpokenOf) {
 }
 
 TEST(VisitPlaces, StopsAndPlacesInHousesInYardsAndOffTheGroundAreNamed) {
-  const auto said = PlacesNobodyReaches(
-      HouseAndYard(), Square(), {StopAt({-10, 0}), StopAt({0, 2.5f}), StopAt({12, 12}), StopAt({500, 0})},
-      {PlaceAt("bench", "loiter", {2.5f, 0}), PlaceAt("", "goal", {12, 12})}, 0.3f);
+  const auto said = PlacesNobodyReaches(HouseAndYard(), Square(),
+                                        {StopAt({-10, 0}), StopAt({0, 2.5f}), StopAt({12, 12}), StopAt({500, 0})},
+                                        {PlaceAt("bench", "loiter", {2.5f, 0}), PlaceAt("", "goal", {12, 12})}, 0.3f);
   const std::vector<std::string> expected = {
       "place 'bench' (loiter) is inside an obstacle; the nearest free ground is taken",
-      "place 'goal' cannot be reached; it is not used",
-      "stop 2 is not on free ground; the tour passes near it", "stop 3 cannot be reached; the tour passes it by",
-      "stop 4 cannot be reached; the tour passes it by"};
+      "place 'goal' cannot be reached; it is not used", "stop 2 is not on free ground; the tour passes near it",
+      "stop 3 cannot be reached; the tour passes it by", "stop 4 cannot be reached; the tour passes it by"};
   EXPECT_EQ(said, expected);
 }
 
