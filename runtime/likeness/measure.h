@@ -11,7 +11,7 @@ namespace flaneur {
 struct MeasureOptions {
   int headings = 32, phases = 8, suns = 3;  // 1 or more each; at most 3 suns
   float between = 0;                        // moves every phase and every heading on by so much of their spacing
-  ClipKind clip = ClipKind::kWalk;  // of who is never seen to walk, instead of it: kIdle
+  ClipKind clip = ClipKind::kWalk;          // of who is never seen to walk, instead of it: kIdle
   bool impostors_only = false;
   float person_px = 0;  // height on screen where all are compared; 0: each at its switch distance
   int sheet_columns = 8;
