@@ -36,6 +36,8 @@ std::vector<std::string> PlacesNobodyReaches(const Footprints& footprints, const
   for (const Obstacle& o : footprints.obstacles) AddObstacle(o, &town.walkable);
   town.walkable.ground = Share(ground);
   BuildWalkable(person_radius_m + kByChoice_m, &town.walkable);
+  if (BestFreeCell(town.walkable) < 0)
+    return {"there is no ground where a person has room; nobody can visit this town"};
   town.places = places;
   PreparePlaces(&town);
   Visitor visitor;

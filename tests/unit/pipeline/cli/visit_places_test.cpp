@@ -60,5 +60,13 @@ TEST(VisitPlaces, StopsAndPlacesInHousesInYardsAndOffTheGroundAreNamed) {
   EXPECT_EQ(said, expected);
 }
 
+TEST(VisitPlaces, ATownWithoutRoomForAnybodyIsOneLine) {
+  Footprints footprints = HouseAndYard();
+  footprints.obstacles[0].outer = {{-19.9, -19.9}, {19.9, -19.9}, {19.9, 19.9}, {-19.9, 19.9}};
+  EXPECT_EQ(PlacesNobodyReaches(footprints, Square(), {StopAt({1, 1})}, {PlaceAt("well", "goal", {1, 1})}, 0.3f).size(),
+            1u);
+  EXPECT_EQ(PlacesNobodyReaches({}, {}, {StopAt({1, 1})}, {PlaceAt("well", "goal", {1, 1})}, 0.3f).size(), 1u);
+}
+
 }  // namespace
 }  // namespace flaneur
