@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 
+#include "runtime/render/people_batches.h"
+
 namespace flaneur {
 namespace {
 
@@ -71,13 +73,14 @@ LevelLikeness MeasureLevel(const MeasureOptions& o, int avatar, Level level, flo
 }
 
 // Who is never seen to walk has one picture of it, and is seen as they stand.
-ClipKind ClipSeen(ClipKind wished, const PackImpostor& impostor) {
-  int walk = 0, idle = 0;
-  for (const ImpostorClip& clip : impostor.clips) {
-    if (clip.name == "walk") walk = clip.phases;
-    if (clip.name == "idle") idle = clip.phases;
-  }
-  return wished == ClipKind::kWalk && walk <= 1 && idle > walk ? ClipKind::kIdle : wished;
+ClipKind ClipSeen(ClipKind wished, const PackAvatar& avatar) {
+  const std::vector<int> clips = ImpostorClipsOf(avatar);
+  const auto phases = [&](ClipKind kind) {
+    const int clip = clips[static_cast<size_t>(kind)];
+    return clip < 0 ? 0 : avatar.impostor.clips[static_cast<size_t>(clip)].phases;
+  };
+  const int walk = phases(ClipKind::kWalk);
+  return wished == ClipKind::kWalk && walk <= 1 && phases(ClipKind::kIdle) > walk ? ClipKind::kIdle : wished;
 }
 
 }  // namespace
@@ -85,7 +88,7 @@ ClipKind ClipSeen(ClipKind wished, const PackImpostor& impostor) {
 AvatarLikeness Measure(const MeasureOptions& wished, int avatar, PortraitStudio* studio) {
   const PackAvatar& a = studio->pack().avatars[static_cast<size_t>(avatar)];
   MeasureOptions options = wished;
-  options.clip = ClipSeen(options.clip, a.impostor);
+  options.clip = ClipSeen(options.clip, a);
   AvatarLikeness out;
   out.name = a.name;
   for (int level = 1; level <= static_cast<int>(a.levels.size()); ++level) {

@@ -109,22 +109,6 @@ PersonInstance Placed(const DrawnPerson& person, float row, float phases) {
           {static_cast<uint8_t>(t[0] | t[1] << 4), t[2], SizeByte(person.breadth), SizeByte(person.size)}};
 }
 
-// By ClipKind; -1 without pictures of it. Without pictures of what else they do people stand.
-std::vector<int> ImpostorClipsOf(const PackAvatar& avatar) {
-  std::vector<std::string> names{"walk", "idle", "talk"};
-  for (const PackOtherClip& other : avatar.other_clips) names.push_back(other.name);
-  std::vector<int> clips;
-  for (const std::string& name : names) {
-    const auto& all = avatar.impostor.clips;
-    const auto found = std::find_if(all.begin(), all.end(), [&](const ImpostorClip& c) { return c.name == name; });
-    const bool stands = found == all.end() && clips.size() > static_cast<size_t>(ClipKind::kIdle);
-    clips.push_back(found != all.end() ? static_cast<int>(found - all.begin())
-                    : stands           ? clips[static_cast<size_t>(ClipKind::kIdle)]
-                                       : -1);
-  }
-  return clips;
-}
-
 const ClipMoment& MainMoment(const DrawnPerson& person) {
   return person.other_share > 0.5f ? person.other : person.moment;
 }
@@ -346,6 +330,21 @@ PersonInstance InstanceOf(const PeopleBatches::Entry& e, const DrawnPerson& pers
 }
 
 }  // namespace
+
+std::vector<int> ImpostorClipsOf(const PackAvatar& avatar) {
+  std::vector<std::string> names{"walk", "idle", "talk"};
+  for (const PackOtherClip& other : avatar.other_clips) names.push_back(other.name);
+  std::vector<int> clips;
+  for (const std::string& name : names) {
+    const auto& all = avatar.impostor.clips;
+    const auto found = std::find_if(all.begin(), all.end(), [&](const ImpostorClip& c) { return c.name == name; });
+    const bool stands = found == all.end() && clips.size() > static_cast<size_t>(ClipKind::kIdle);
+    clips.push_back(found != all.end() ? static_cast<int>(found - all.begin())
+                    : stands           ? clips[static_cast<size_t>(ClipKind::kIdle)]
+                                       : -1);
+  }
+  return clips;
+}
 
 AvatarLayout LayoutOf(const PackAvatar& avatar) {
   AvatarLayout layout;

@@ -31,6 +31,9 @@ struct AvatarLayout {
   int first_cell = 0;            // of its cells in the texture of all cells
 };
 
+// Of the impostor's clips, by ClipKind; -1 without pictures of it. Without pictures of what else they do people stand.
+std::vector<int> ImpostorClipsOf(const PackAvatar& avatar);
+
 // Sets all but first_shadow_row and first_cell.
 AvatarLayout LayoutOf(const PackAvatar& avatar);
 size_t ClipBytes(const AvatarLayout& layout);  // what animating it takes
