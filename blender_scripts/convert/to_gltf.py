@@ -2,8 +2,8 @@
 
     blender --background --factory-startup --python-exit-code 1 --python to_gltf.py -- SETTINGS.json
 
-SETTINGS.json: {"output": "person.glb", "options": {"input": "person.fbx"}}. The input is a .blend, .fbx, .dae or
-.obj file. Custom properties become extras, every action of a rig a clip; what is hidden stays out.
+SETTINGS.json: {"output": "person.glb", "options": {"input": "person.fbx"}}. The input is a .blend or
+of any kind in IMPORTERS. Custom properties become extras, every action of a rig a clip; what is hidden stays out.
 """
 
 import os
@@ -17,24 +17,40 @@ from common import gltf  # noqa: E402
 from common.settings import fail, load_settings, write_atomically  # noqa: E402
 
 
+def knows(operators, name):
+    return name in dir(operators)  # hasattr finds any name there
+
+
+def by_operator(module, name, **options):
+    """An importer, if this Blender has it: formats come and go with its versions and builds."""
+    def read(path):
+        operators = getattr(bpy.ops, module)
+        if not knows(operators, name):
+            raise RuntimeError("this Blender does not read such files; save the model as glTF, FBX or OBJ")
+        getattr(operators, name)(filepath=path, **options)
+    return read
+
+
 def import_obj(path):
-    if hasattr(bpy.ops.wm, "obj_import"):
-        bpy.ops.wm.obj_import(filepath=path)
-    else:
-        bpy.ops.import_scene.obj(filepath=path)
+    by_operator(*(("wm", "obj_import") if knows(bpy.ops.wm, "obj_import") else ("import_scene", "obj")))(path)
 
 
-def import_dae(path):
-    if not hasattr(bpy.ops.wm, "collada_import"):
-        raise RuntimeError("this Blender no longer reads Collada; save the model as FBX or glTF")
-    bpy.ops.wm.collada_import(filepath=path)
+def import_x3d(path):
+    try:  # the one of Blender 3.4 opens files in a way that Python 3.11 no longer knows
+        from io_scene_x3d import import_x3d as importer
+        importer.open = lambda file, mode="r", **how: open(file, mode.replace("U", ""), **how)
+    except ImportError:
+        pass
+    by_operator("import_scene", "x3d")(path)
 
 
-def import_fbx(path):
-    bpy.ops.import_scene.fbx(filepath=path, use_custom_props=True)
-
-
-IMPORTERS = {".obj": import_obj, ".dae": import_dae, ".fbx": import_fbx}
+IMPORTERS = {
+    ".obj": import_obj, ".dae": by_operator("wm", "collada_import"),
+    ".fbx": by_operator("import_scene", "fbx", use_custom_props=True),
+    ".x3d": import_x3d, ".wrl": import_x3d,
+    ".abc": by_operator("wm", "alembic_import", as_background_job=False),
+    **{kind: by_operator("wm", "usd_import") for kind in (".usd", ".usda", ".usdc", ".usdz")},
+}
 
 
 def open_input(path):
@@ -43,7 +59,7 @@ def open_input(path):
         bpy.ops.wm.open_mainfile(filepath=path, load_ui=False)
         return
     if kind not in IMPORTERS:
-        fail("%s: neither .blend, .fbx, .dae nor .obj" % path)
+        fail("%s: neither .blend nor %s" % (path, ", ".join(sorted(IMPORTERS))))
     bpy.ops.wm.read_factory_settings(use_empty=True)
     IMPORTERS[kind](path)
 

@@ -6,10 +6,10 @@
 #include "pipeline/cli/assemble_town.h"
 #include "pipeline/cli/baking.h"
 #include "pipeline/cli/far_town.h"
-#include "pipeline/cli/obj_up.h"
 #include "pipeline/cli/stage_inputs.h"
 #include "pipeline/cli/town_brightness.h"
 #include "pipeline/cli/trust.h"
+#include "pipeline/cli/up_option.h"
 #include "pipeline/cli/visit_places.h"
 #include "pipeline/cli/work_clips.h"
 #include "pipeline/core/temporary_folder.h"
@@ -47,7 +47,7 @@ Error ReadTown(Baking* baking, Scene* town, Warnings* warnings) {
     Scene whole;
     if (Error e = SourceFile(baking, 0, &file)) return e;
     const std::string& crs = s.georeference.crs;
-    if (Error e = read(file, {crs == "none" ? "" : crs, UpAxisNamed(s.town_obj_up)}, &whole, &source))
+    if (Error e = read(file, {crs == "none" ? "" : crs, UpAxisNamed(s.town_up)}, &whole, &source))
       return BadSource(baking, 0, e);
     town->origin_m = {whole.origin_m.x * s.town_scale, whole.origin_m.y * s.town_scale};
     town->reference_system = whole.reference_system;
@@ -55,7 +55,7 @@ Error ReadTown(Baking* baking, Scene* town, Warnings* warnings) {
   }
   for (const TownPart& part : s.parts) {
     Scene scene;
-    if (Error e = read(part.file, {"", UpAxisNamed(part.obj_up)}, &scene, nullptr))
+    if (Error e = read(part.file, {"", UpAxisNamed(part.up)}, &scene, nullptr))
       return Fail(PlaceOfFile(s, part.file) + e.message);
     AppendScene(std::move(scene), part.scale, part.yaw_deg * kPi / 180, part.position_m, town);
   }
@@ -151,9 +151,10 @@ Error MakeFootprints(Baking* baking, StageReport* report, Warnings* warnings) {
   FootprintStats stats;
   if (Error e = ExtractFootprints(parts->town, s.footprints, &parts->footprints, &stats, warnings)) return e;
   if (!AnywhereToWalk(parts->ground, parts->footprints)) {
-    return Fail(
-        "the town has no walkable ground: obstacles cover all of it; mark the ground's nodes with flaneur_kind "
-        "\"ground\"");
+    return Fail("the town has no walkable ground: " +
+                (stats.doubt_of_units.empty()
+                     ? "obstacles cover all of it; mark the ground's nodes with flaneur_kind \"ground\""
+                     : stats.doubt_of_units));
   }
   report->figures = {{"obstacles", stats.obstacles}, {"covered_m2", stats.covered_m2}};
   return Ok();

@@ -9,8 +9,8 @@
 
 #include "pipeline/cli/arguments.h"
 #include "pipeline/cli/far_town.h"
-#include "pipeline/cli/obj_up.h"
 #include "pipeline/cli/place_obstacles.h"
+#include "pipeline/cli/up_option.h"
 #include "pipeline/cli/verbs.h"
 #include "pipeline/footprint/check.h"
 #include "pipeline/footprint/map.h"
@@ -26,7 +26,7 @@ struct CheckArguments {
   std::filesystem::path obstacles, town, json, geojson, map, page;
   CheckOptions options;
   ReadGeoJsonOptions reading;
-  UpAxis obj_up = UpAxis::kJudged;
+  UpAxis up = UpAxis::kJudged;
   bool warnings_as_errors = false;
   size_t most_listed = 10;
 };
@@ -46,7 +46,7 @@ void AddOptions(CLI::App* app, CheckArguments* a) {
   app->add_option("--units", a->reading.units, "Of the coordinates: auto, metres or degrees")
       ->transform(CLI::CheckedTransformer(units, CLI::ignore_case));
   app->add_option("--crs", a->reading.system, "The coordinates' system, such as EPSG:25832, whatever the file says");
-  AddObjUp(app, &a->obj_up);
+  AddUp(app, &a->up);
   app->add_option("--clearance-m", a->options.clearance_m, "Least distance from wall to outline [default: the file's]")
       ->check(NumberFrom(0.0, 10.0));
   app->option_defaults()->always_capture_default();
@@ -140,7 +140,7 @@ void MoveAsBaked(const GeoJsonFile& file, Scene* town) {
 // The town, with the obstacles moved to where it stands.
 Error ReadTown(const CheckArguments& a, GeoJsonFile* file, std::vector<Finding>* faults, TownToCheck* town) {
   std::vector<std::string> warnings;
-  if (Error error = ReadScene(a.town, &town->scene, &warnings, {"", a.obj_up})) return error;
+  if (Error error = ReadScene(a.town, &town->scene, &warnings, {"", a.up})) return error;
   MoveAsBaked(*file, &town->scene);
   if (Error error = PrepareTown(town->scene, file->footprints, a.options, &town->prepared))
     return Fail(a.town.string() + ": " + error.message);

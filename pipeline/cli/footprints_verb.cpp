@@ -8,7 +8,7 @@
 #include "pipeline/cli/arguments.h"
 #include "pipeline/cli/far_town.h"
 #include "pipeline/cli/georeference.h"
-#include "pipeline/cli/obj_up.h"
+#include "pipeline/cli/up_option.h"
 #include "pipeline/cli/verbs.h"
 #include "pipeline/footprint/extract_footprints.h"
 #include "pipeline/footprint/map.h"
@@ -26,7 +26,7 @@ struct FootprintsArguments {
   FootprintOptions options;
   Georeference georeference;
   std::array<double, 2> origin_m{};
-  UpAxis obj_up = UpAxis::kJudged;
+  UpAxis up = UpAxis::kJudged;
 };
 
 void AddOptions(CLI::App* app, FootprintsArguments* a) {
@@ -43,7 +43,7 @@ void AddOptions(CLI::App* app, FootprintsArguments* a) {
   app->add_option("--origin-m", a->origin_m,
                   "Add to the town's coordinates to get those of the map: EAST NORTH; for glTF, "
                   "city models have their own");
-  AddObjUp(app, &a->obj_up);
+  AddUp(app, &a->up);
   app->option_defaults()->always_capture_default();
   app->add_option("--clearance-m", a->options.clearance_m, "Enlarge obstacles by this")->check(NumberFrom(0.0, 10.0));
   app->add_option("--band", a->options.band_m,
@@ -70,7 +70,7 @@ Error Run(const FootprintsArguments& a) {
   FootprintStats stats;
   std::vector<std::string> warnings;
   const std::string towns = NameOf(a.towns);
-  const ReadSceneOptions reading{a.georeference.crs == "none" ? "" : a.georeference.crs, a.obj_up};
+  const ReadSceneOptions reading{a.georeference.crs == "none" ? "" : a.georeference.crs, a.up};
   if (Error error = ReadTiles(a.towns, reading, &scene, &source, &warnings)) return error;
   Georeference georeference = a.georeference;
   if (!source.system.empty()) georeference.crs.clear();  // done by the reader

@@ -69,10 +69,10 @@ std::string ScriptInputs(const SourceSettings& source, const std::string& blende
 
 std::string TownShapeInputs(const TourSettings& s, const std::vector<std::string>& contents) {
   Fingerprint print;
-  print.Add("shape").Add(ThisProgram()).Add(s.town_scale).Add(s.town_obj_up).Add(s.georeference.crs);
+  print.Add("shape").Add(ThisProgram()).Add(s.town_scale).Add(s.town_up).Add(s.georeference.crs);
   AddAll(contents, &print);
   for (const TownPart& part : s.parts)
-    print.Add(part.position_m.x).Add(part.position_m.y).Add(part.yaw_deg).Add(part.scale).Add(part.obj_up);
+    print.Add(part.position_m.x).Add(part.position_m.y).Add(part.yaw_deg).Add(part.scale).Add(part.up);
   return print.Hex();
 }
 

@@ -35,7 +35,7 @@ void ReadPart(TomlTable table, TourSettings* settings) {
   table.Point("position_m", &part.position_m);
   table.Number("yaw_deg", &part.yaw_deg, -360, 360);
   table.Number("scale", &part.scale, 1e-6, 1e6);
-  table.Choice("obj_up", &part.obj_up, {"", "y", "z"});
+  table.Choice("up", &part.up, {"", "x", "y", "z", "-x", "-y", "-z"});
   if (part.file.empty()) table.Refuse("a [[town.part]] needs a file");
   table.Finish();
   settings->parts.push_back(part);
@@ -44,7 +44,7 @@ void ReadPart(TomlTable table, TourSettings* settings) {
 void ReadTown(TomlTable table, TourSettings* settings) {
   ReadSource(&table, &settings->town);
   table.Number("scale", &settings->town_scale, 1e-6, 1e6);
-  table.Choice("obj_up", &settings->town_obj_up, {"", "y", "z"});
+  table.Choice("up", &settings->town_up, {"", "x", "y", "z", "-x", "-y", "-z"});
   TomlTable georeference = table.Table("georeference");
   georeference.Text("crs", &settings->georeference.crs);
   georeference.MapPoint("origin_m", &settings->georeference.origin_m.x, &settings->georeference.origin_m.y);

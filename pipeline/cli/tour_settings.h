@@ -30,9 +30,9 @@ struct SourceSettings {
 struct TownPart {
   std::filesystem::path file;
   Vec2 position_m;
-  float yaw_deg = 0;   // anticlockwise
-  float scale = 1;     // metres per unit of the file
-  std::string obj_up;  // axis of an OBJ that points up: y or z; empty: judged
+  float yaw_deg = 0;  // anticlockwise
+  float scale = 1;    // metres per unit of the file
+  std::string up;     // axis of the file that points up: "y", "-z", ...; empty: as the format says, else judged
 };
 
 // A clip besides walk, idle and talk.
@@ -66,7 +66,7 @@ struct AvatarSettings {
 struct TourSettings : TourData {
   SourceSettings town;        // empty file: only parts
   float town_scale = 1;       // metres per unit of the town's file
-  std::string town_obj_up;    // as of its parts
+  std::string town_up;        // as of its parts
   Georeference georeference;  // of the town
   std::vector<TownPart> parts;
   std::vector<AvatarSettings> avatars;

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "pipeline/core/obj_files.h"
+#include "pipeline/core/ply_header.h"
 #include "pipeline/core/uri.h"
 #include "runtime/base/file.h"
 
@@ -59,11 +60,21 @@ std::vector<fs::path> NamedPictures(const fs::path& model, const std::string& te
   return files;
 }
 
+// The pictures that a PLY's comments name.
+std::vector<fs::path> PicturesOfPly(const fs::path& ply, const std::string& text) {
+  PlyHeader header;
+  std::vector<fs::path> files;
+  if (ReadPlyHeader(text, &header)) return files;
+  for (const std::string& name : header.pictures) files.push_back(BesideObj(ply.parent_path(), name));
+  return files;
+}
+
 bool IsGltf(const fs::path& path) { return HasExtension(path, ".gltf") || HasExtension(path, ".glb"); }
 
 std::vector<fs::path> FilesOfModel(const fs::path& path, const std::string& text) {
   if (IsGltf(path)) return NamedFiles(path, text);
   if (HasExtension(path, ".obj")) return FilesOfObj(path, text);
+  if (HasExtension(path, ".ply")) return PicturesOfPly(path, text);
   if (HasExtension(path, ".gml") || HasExtension(path, ".xml") || HasExtension(path, ".citygml"))
     return NamedPictures(path, text);
   return {};

@@ -5,8 +5,12 @@
 #include <cstdio>
 #include <set>
 
+#include "pipeline/footprint/blocks.h"
 #include "pipeline/footprint/check_parts.h"
+#include "pipeline/footprint/constants.h"
 #include "pipeline/footprint/extract_footprints.h"
+#include "pipeline/footprint/feet.h"
+#include "pipeline/footprint/lost_triangles.h"
 #include "pipeline/footprint/rasterize_ground.h"
 
 namespace flaneur {
@@ -96,6 +100,11 @@ Error PrepareTown(const Scene& town, const Footprints& footprints, const CheckOp
   if (Error error = ExtractFootprints(town, extraction, &prepared->own, &stats)) return error;
   prepared->open_shells = std::move(stats.open_shells);
   prepared->objects = SortTown(town, options.scale);
+  if (prepared->objects.ground.empty()) {  // what stands on no ground stands where the extraction says
+    std::vector<TownObject>& objects = prepared->objects.obstacles;
+    FindLevelFeet(BlocksOf(Adjoining(objects)), options.threads, &objects);
+    FindFloors(extraction, kMinFloor, &objects);
+  }
   return RasterizeGround(prepared->objects, {}, &prepared->ground);
 }
 

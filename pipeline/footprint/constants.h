@@ -17,7 +17,10 @@ inline constexpr double kMaxGroundSteepness = 0.3;
 inline constexpr double kMaxObject_m = 100'000;  // wide; beyond, coordinates lose millimetres
 inline constexpr double kMaxGround_m = 100'000;  // wide
 inline constexpr double kMinHouse_m = 0.5;       // wide, half of a town's buildings at least
-inline constexpr double kMaxHouse_m = 500;       // wide, half of a town's buildings at most
+inline constexpr double kMinLargest_m = 2.5;     // wide or high, one in ten of them at least
+inline constexpr double kMaxHouse_m = 500;       // wide, half of them at most
+inline constexpr double kMaxHeight_m = 150;      // high, half of them at most
+inline constexpr double kMaxOfOne_m = 5'000;     // wide, a town that is one thing; and a tenth as high
 
 // The ground.
 inline constexpr int kSmoothingRounds = 30;     // over the heights of cells without ground

@@ -40,19 +40,38 @@ Error CheckExtents(const TownObjects& town) {
   return Ok();
 }
 
-// Houses as wide as villages or as narrow as boxes: the units are likely others.
-void WarnOfUnits(const TownObjects& town, std::vector<std::string>* warnings) {
-  std::vector<double> widths;
-  for (const TownObject& o : town.obstacles)
-    if (o.kind == ObstacleKind::kBuilding) widths.push_back(std::max(o.max_m.x - o.min_m.x, o.max_m.y - o.min_m.y));
-  if (widths.empty()) return;
-  std::nth_element(widths.begin(), widths.begin() + static_cast<long>(widths.size() / 2), widths.end());
-  const double middle = widths[widths.size() / 2];
-  if (middle > kMinHouse_m && middle < kMaxHouse_m) return;
-  char text[40];
-  std::snprintf(text, sizeof text, "%.3g", middle);
-  warnings->push_back("half of the buildings are " + std::string(middle < 1 ? "narrower" : "wider") + " than " + text +
-                      " m; are the units metres? See the option for the scale");
+// The one below which `share` of them lie.
+double Quantile(std::vector<double> values, double share) {
+  const auto at = values.begin() + static_cast<long>(share * static_cast<double>(values.size() - 1));
+  std::nth_element(values.begin(), at, values.end());
+  return *at;
+}
+
+// Houses as wide as villages, as high as mountains, as narrow as boxes or all lower than a person: the units are likely
+// others. Empty where nothing speaks for it.
+std::string DoubtOfUnits(const TownObjects& town) {
+  std::vector<double> widths, heights;
+  for (const TownObject& o : town.obstacles) {
+    if (o.kind != ObstacleKind::kBuilding) continue;
+    widths.push_back(std::max(o.max_m.x - o.min_m.x, o.max_m.y - o.min_m.y));
+    heights.push_back(o.max_m.z - o.min_m.z);
+  }
+  if (widths.empty()) return "";
+  const bool one = widths.size() == 1;
+  const double width = Quantile(widths, 0.5), height = Quantile(heights, 0.5);
+  const double large = std::max(Quantile(widths, 0.9), Quantile(heights, 0.9));
+  const double widest = one ? kMaxOfOne_m : kMaxHouse_m, highest = one ? kMaxOfOne_m / 10 : kMaxHeight_m;
+  const auto doubt = [](const char* which, double size_m) {
+    char text[160];
+    std::snprintf(text, sizeof text, "%s than %.3g m; are the units metres? See the option for the scale", which,
+                  size_m);
+    return std::string(text);
+  };
+  if (width < kMinHouse_m) return doubt("half of the buildings are narrower", width);
+  if (large < kMinLargest_m) return doubt("nine in ten of the buildings are narrower and lower", large);
+  if (width > widest) return doubt("half of the buildings are wider", width);
+  if (height > highest) return doubt("half of the buildings are higher", height);
+  return "";
 }
 
 bool IsRound(const TownObject& object) {
@@ -241,7 +260,8 @@ Error ExtractFootprints(const Scene& scene, const FootprintOptions& options, Foo
   const std::vector<Block> blocks = BlocksOf(adjoining);
   if (town.ground.empty()) FindLevelFeet(blocks, options.threads, &town.obstacles);
   FindFloors(options, kMinFloor, &town.obstacles);
-  if (warnings) WarnOfUnits(town, warnings);
+  const std::string units = DoubtOfUnits(town);
+  if (warnings && !units.empty()) warnings->push_back(units);
   GroundRaster raster;
   std::optional<LocalGround> ground;
   if (!town.ground.empty()) {
@@ -258,6 +278,7 @@ Error ExtractFootprints(const Scene& scene, const FootprintOptions& options, Foo
   const bool has_lost = PutBackLost(site, blocks, neighbours, &town.obstacles, &shapes);
   CloseShells(site, objects, blocks, beside, neighbours, has_lost, &shapes);
   FootprintStats counts = Count(objects, shapes);
+  counts.doubt_of_units = units;
   if (options.merge_blocks)
     for (const Block& block : blocks) MergeBlock(block, &shapes);
   const std::vector<Rings> outlines = Outlines(site, objects, shapes);

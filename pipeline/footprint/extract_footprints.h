@@ -26,7 +26,8 @@ struct FootprintStats {
   int triangles = 0;  // theirs
   int lines = 0;      // wall lines in the band
   int obstacles = 0;
-  double covered_m2 = 0;  // without circles
+  double covered_m2 = 0;       // without circles
+  std::string doubt_of_units;  // why the scene's units seem to be no metres; empty: they do not
   std::vector<std::string>
       open_shells;  // buildings whose walls do not close, or had to be closed: the obstacle is a guess
 };

@@ -1,6 +1,8 @@
 // Which house of a block stands where.
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <functional>
 
 #include "pipeline/footprint/blocks.h"
 #include "pipeline/footprint/constants.h"
@@ -131,23 +133,30 @@ class BlockShares {
     }
   }
 
-  // By the roof over most of a piece, or where it is a mere strip by the longest joint; the block's size: nobody.
+  // By the roof over most of a piece, or where it is a mere strip by the longest joint, else whose it was, as a post's
+  // without a top; the block's size: nobody.
   size_t OwnerOf(const Rings& piece, const std::vector<Rings>& shares) {
     const bool strip = Offset(piece, -kStripe_m / 2).empty();
     const Rings grown = Offset(piece, kStripe_m / 2);
     const BoundingBox box = BoundingBoxOf(grown);
     size_t owner = block_.size();
     double most_m2 = 0;
-    const auto look = [&](bool by_roof) {
+    const auto look = [&](const auto& shared) {
       for (size_t k = 0; k < block_.size(); ++k) {
         const TownObject& o = Object(k);
         if (Apart(box, {{o.min_m.x, o.min_m.y}, {o.max_m.x, o.max_m.y}})) continue;
-        const double shared_m2 = Area(by_roof ? Intersection(piece, Roof(k)) : Intersection(grown, shares[k]));
+        const double shared_m2 = Area(shared(k));
         if (shared_m2 > most_m2) most_m2 = shared_m2, owner = k;
       }
     };
-    look(!strip);
-    if (owner == block_.size()) look(strip);
+    std::array<std::function<Rings(size_t)>, 3> shared{
+        [&](size_t k) { return Intersection(piece, Roof(k)); },
+        [&](size_t k) { return Intersection(grown, shares[k]); },
+        [&](size_t k) { return Intersection(piece, ShapeAt(k).solid); },
+    };
+    if (strip) std::swap(shared[0], shared[1]);
+    for (const auto& each : shared)
+      if (owner == block_.size()) look(each);
     return owner;
   }
 

@@ -685,6 +685,9 @@ namespace {
 Error LoadPerson(const std::filesystem::path& path, GltfDocument* document, std::vector<std::string>* warnings) {
   TemporaryFolder folder;
   std::filesystem::path gltf = path;
+  if (HasExtension(path, ".ply") || HasExtension(path, ".stl"))
+    return Fail(path.string() +
+                ": holds no skeleton; rig the figure first (Blender, Mixamo) and save it as glTF or FBX");
   if (NeedsBlender(path) || HasExtension(path, ".obj")) {
     if (Error e = ConvertToGltf(path, &folder, &gltf)) return e;
   }

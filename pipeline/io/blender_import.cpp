@@ -1,5 +1,7 @@
 #include "pipeline/io/blender_import.h"
 
+#include <algorithm>
+#include <iterator>
 #include <nlohmann/json.hpp>
 #include <string>
 
@@ -10,7 +12,10 @@ namespace flaneur {
 namespace fs = std::filesystem;
 
 bool NeedsBlender(const fs::path& path) {
-  return HasExtension(path, ".blend") || HasExtension(path, ".fbx") || HasExtension(path, ".dae");
+  static constexpr const char* kExtensions[] = {".blend", ".fbx", ".dae",  ".x3d",  ".wrl",
+                                                ".abc",   ".usd", ".usda", ".usdc", ".usdz"};
+  return std::any_of(std::begin(kExtensions), std::end(kExtensions),
+                     [&](const char* extension) { return HasExtension(path, extension); });
 }
 
 Error ConvertToGltf(const fs::path& path, TemporaryFolder* folder, fs::path* gltf) {

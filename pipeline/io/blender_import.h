@@ -7,7 +7,7 @@
 
 namespace flaneur {
 
-// .blend, .fbx, .dae; upper and lower case alike.
+// .blend, .fbx, .dae, .x3d, .wrl, .abc and USD; upper and lower case alike.
 bool NeedsBlender(const std::filesystem::path& path);
 
 // Has Blender open `path` (also .obj) and write it as glTF into `folder`, which is created. Custom properties become

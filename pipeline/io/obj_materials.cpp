@@ -59,7 +59,7 @@ void ObjMaterials::AddLibrary(const fs::path& library) {
   });
 }
 
-ObjLook ObjMaterials::Use(const std::string& name, TownBuilder* builder) {
+FaceLook ObjMaterials::Use(const std::string& name, TownBuilder* builder) {
   const auto found = entries_.find(name);
   if (found == entries_.end()) return {};
   Entry& entry = found->second;

@@ -6,15 +6,9 @@
 #include <string_view>
 #include <vector>
 
-#include "pipeline/io/town_builder.h"
+#include "pipeline/io/polygon_soup.h"
 
 namespace flaneur {
-
-struct ObjLook {
-  int material = -1;  // of the builder
-  Vec2 uv_scale{1, 1}, uv_offset{};
-  bool has_picture = false;
-};
 
 class ObjMaterials {
  public:
@@ -22,14 +16,14 @@ class ObjMaterials {
   // plain: one warning of each kind.
   void AddLibraries(const std::filesystem::path& obj, std::string_view named);
   // Of the material of that name, given to the builder when first asked for; plain where no library has it.
-  ObjLook Use(const std::string& name, TownBuilder* builder);
+  FaceLook Use(const std::string& name, TownBuilder* builder);
   void Warn(const std::filesystem::path& obj, std::vector<std::string>* warnings) const;
 
  private:
   struct Entry {
     Material material;
     std::filesystem::path picture;  // empty: a colour
-    ObjLook look;
+    FaceLook look;
     bool used = false;
   };
   void AddLibrary(const std::filesystem::path& library);

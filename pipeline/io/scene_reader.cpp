@@ -3,6 +3,7 @@
 #include <cstdio>
 #include <memory>
 
+#include "pipeline/core/ply_header.h"
 #include "pipeline/io/blender_import.h"
 #include "pipeline/io/gltf.h"
 #include "runtime/base/file.h"
@@ -24,6 +25,23 @@ bool IsXml(const std::string& text, char first) {
   return first == '<' || utf16;
 }
 
+bool IsCityJson(const std::string& text, char first) {
+  return first == '{' &&
+         (text.find("\"CityJSON\"") != std::string::npos || text.find("\"CityObjects\"") != std::string::npos);
+}
+
+// Of formats that know which way is up.
+void StandUpAsAsked(const std::filesystem::path& path, UpAxis up, Scene* scene, std::vector<std::string>* warnings) {
+  UpAxis thin = UpAxis::kJudged;
+  if (up != UpAxis::kJudged) {
+    StandUp(up, scene);
+  } else if (warnings && LiesOnItsSide(*scene, &thin)) {
+    const std::string axis = thin == UpAxis::kX ? "x" : "z";
+    warnings->push_back(path.string() + ": lies on its side, as it seems; the option 'up' (" + axis + " or -" + axis +
+                        ") turns it upright");
+  }
+}
+
 }  // namespace
 
 Error ReadScene(const std::filesystem::path& path, Scene* scene, std::vector<std::string>* warnings,
@@ -36,19 +54,31 @@ Error ReadScene(const std::filesystem::path& path, Scene* scene, std::vector<std
     TemporaryFolder folder;
     std::filesystem::path gltf;
     if (Error e = ConvertToGltf(path, &folder, &gltf)) return e;
-    return ReadGltfScene(gltf, scene, warnings);
+    if (Error e = ReadGltfScene(gltf, scene, warnings)) return e;
+    StandUpAsAsked(path, options.up, scene, warnings);
+    return Ok();
   }
   const std::string text = Beginning(path);
   const size_t start = text.find_first_not_of(" \t\r\n");
   const char first = start == std::string::npos ? '\0' : text[start];
-  if (IsXml(text, first)) return ReadCityGml(path, scene, warnings, options, source);
+  const bool named_gltf = HasExtension(path, ".gltf") || HasExtension(path, ".glb");
+  const bool xml = IsXml(text, first);
   // Members of a JSON object stand in any order: glTF must have "asset" and "version", CityJSON its "type".
-  const bool city = text.find("\"CityJSON\"") != std::string::npos || text.find("\"CityObjects\"") != std::string::npos;
-  if (first == '{' && city) return ReadCityJson(path, scene, warnings, options, source);
-  if (HasExtension(path, ".obj")) return ReadObj(path, scene, warnings, options.obj_up);
-  if (first == '{' && path.extension() != ".gltf" && path.extension() != ".glb")
-    return ReadCityJson(path, scene, warnings, options, source);
-  return ReadGltfScene(path, scene, warnings);
+  if (xml || IsCityJson(text, first) || (first == '{' && !named_gltf && !HasExtension(path, ".obj"))) {
+    if (options.up != UpAxis::kJudged)
+      return Fail(path.string() + ": a city model's up is known; leave the option 'up' away");
+    return xml ? ReadCityGml(path, scene, warnings, options, source)
+               : ReadCityJson(path, scene, warnings, options, source);
+  }
+  if (HasExtension(path, ".obj")) return ReadObj(path, scene, warnings, options.up);
+  if (HasExtension(path, ".ply") || IsPly(text)) return ReadPly(path, scene, warnings, options.up);
+  if (HasExtension(path, ".stl")) return ReadStl(path, scene, warnings, options.up);
+  if (!named_gltf && text.rfind("glTF", 0) != 0)
+    return Fail(path.string() +
+                ": no town that is known by its name or content; save it as glTF (.glb), OBJ, PLY, FBX or .blend");
+  if (Error e = ReadGltfScene(path, scene, warnings)) return e;
+  StandUpAsAsked(path, options.up, scene, warnings);
+  return Ok();
 }
 
 }  // namespace flaneur

@@ -280,11 +280,11 @@ class Check(ProgramTest):
         corners = [(x, y, z) for z in (0, 40) for x, y in ((0, 0), (8, 0), (8, 6), (0, 6))]
         faces = ((4, 3, 2, 1), (5, 6, 7, 8), (1, 2, 6, 5), (2, 3, 7, 6), (3, 4, 8, 7), (4, 1, 5, 8))
         town.write_text("o tower\n" + "".join("v %g %g %g\n" % c for c in corners) + "".join("f %d %d %d %d\n" % f for f in faces))
-        self.assert_succeeds(run("flaneur", "footprints", town, "-o", standing, "--obj-up", "z"))
-        self.assert_succeeds(run("flaneur", "footprints", town, "-o", lying, "--obj-up", "y"))
+        self.assert_succeeds(run("flaneur", "footprints", town, "-o", standing, "--up", "z"))
+        self.assert_succeeds(run("flaneur", "footprints", town, "-o", lying, "--up", "y"))
         for obstacles, up, status in ((standing, "z", 0), (lying, "y", 0), (standing, "y", 1), (lying, "z", 1)):
             with self.subTest(obstacles=obstacles.name, up=up):
-                self.assertEqual(run("flaneur", "check", obstacles, "--town", town, "--obj-up", up).returncode, status)
+                self.assertEqual(run("flaneur", "check", obstacles, "--town", town, "--up", up).returncode, status)
 
     def test_open_shells_are_told_by_the_file_too(self):
         out, made = self.extracted(CASES / "306.gltf")

@@ -1,4 +1,4 @@
-"""Makes a rigged figure of four ellipsoids that walks and stands, as .blend, .fbx, .dae and .obj, and a town of one house as .blend.
+"""Makes a rigged figure of four ellipsoids that walks and stands, as .blend, .fbx, .dae and .obj, and a town of one house as .blend, .x3d and .ply.
 
     blender --background --factory-startup --python-exit-code 1 --python figure_in_blender.py -- FOLDER
 """
@@ -85,6 +85,20 @@ def make_figure(folder):
         bpy.ops.wm.collada_export(filepath=str(folder / "figure.dae"))
 
 
+def paint(house):
+    """With a picture that lies as a UV map of a name says."""
+    material = bpy.data.materials.new("wall")
+    material.use_nodes = True
+    nodes, links = material.node_tree.nodes, material.node_tree.links
+    picture, uv_map = nodes.new("ShaderNodeTexImage"), nodes.new("ShaderNodeUVMap")
+    picture.image = bpy.data.images.new("wall", 4, 4)
+    picture.image.pack()
+    uv_map.uv_map = house.data.uv_layers[0].name
+    links.new(uv_map.outputs["UV"], picture.inputs["Vector"])
+    links.new(picture.outputs["Color"], nodes["Principled BSDF"].inputs["Base Color"])
+    house.data.materials.append(material)
+
+
 def make_town(folder):
     bpy.ops.wm.read_factory_settings(use_empty=True)
     bpy.ops.mesh.primitive_plane_add(size=60)
@@ -93,7 +107,15 @@ def make_town(folder):
     bpy.ops.mesh.primitive_cube_add(location=(3, 4, 3), scale=(4, 2, 3))
     bpy.context.object.name = "house"
     bpy.context.object["flaneur_kind"] = "building"
+    paint(bpy.context.object)
+    bpy.ops.mesh.primitive_cube_add(location=(-20, 20, 1))
+    bpy.context.object.name = "shed"
+    bpy.context.object.data.materials.append(None)  # a slot that nobody filled
+    bpy.context.object["flaneur_kind"] = "building"
     bpy.ops.wm.save_as_mainfile(filepath=str(folder / "town.blend"))
+    bpy.ops.export_mesh.ply(filepath=str(folder / "town.ply"))
+    if "x3d" in dir(bpy.ops.export_scene):
+        bpy.ops.export_scene.x3d(filepath=str(folder / "town.x3d"))
 
 
 target = pathlib.Path(sys.argv[sys.argv.index("--") + 1])

@@ -63,15 +63,24 @@ class Formats(unittest.TestCase):
                 self.assertIn(name, result.stderr)
                 self.assertFalse((self.folder / "none.glb").exists())
 
-    def test_a_town_may_be_a_blend_file(self):
-        out = self.folder / "town.geojson"
-        result = run("flaneur", "footprints", self.folder / "town.blend", "-o", out)
-        self.assertEqual(result.returncode, 0, result.stderr)
-        (house,) = json.loads(out.read_text())["features"]
-        self.assertEqual(house["properties"]["kind"], "building")
-        ring = house["geometry"]["coordinates"][0]
-        self.assertAlmostEqual(min(x for x, _ in ring), 3 - 4 - 0.05, delta=0.01)
-        self.assertAlmostEqual(max(y for _, y in ring), 4 + 2 + 0.05, delta=0.01)
+    def test_a_town_may_be_what_blender_reads_and_a_scan(self):
+        for name in ("town.blend", "town.x3d", "town.ply"):
+            if not (self.folder / name).exists():
+                continue  # a Blender without X3D
+            with self.subTest(name):
+                out = self.folder / "town.geojson"
+                result = run("flaneur", "footprints", self.folder / name, "-o", out)
+                self.assertEqual(result.returncode, 0, result.stderr)
+                features = json.loads(out.read_text())["features"]
+                self.assertEqual({feature["properties"]["kind"] for feature in features}, {"building"})
+                (ring,) = [ring for ring in (f["geometry"]["coordinates"][0] for f in features) if max(x for x, _ in ring) > 0]
+                self.assertAlmostEqual(min(x for x, _ in ring), 3 - 4 - 0.05, delta=0.01)
+                self.assertAlmostEqual(max(y for _, y in ring), 4 + 2 + 0.05, delta=0.01)
+
+    def test_a_scan_is_no_figure(self):
+        result = run("flaneur", "avatar", self.folder / "town.ply", "-o", self.folder / "none.glb")
+        self.assertEqual(result.returncode, 2)
+        self.assertIn("no skeleton", result.stderr)
 
 
 if __name__ == "__main__":

@@ -94,9 +94,9 @@ std::string NameOf(const testing::TestParamInfo<const char*>& info) {
 
 INSTANTIATE_TEST_SUITE_P(All, ChangedFile,
                          testing::Values("towns/houses.gml", "towns/houses.city.json", "towns/houses.city.jsonl",
-                                         "towns/houses.obj", "towns/street.glb", "check/601.gltf",
-                                         "towns/instances.gltf", "check/sound.geojson", "check/203.geojson",
-                                         "check/504.geojson"),
+                                         "towns/houses.obj", "towns/houses.ply", "towns/houses.stl", "towns/street.glb",
+                                         "check/601.gltf", "towns/instances.gltf", "check/sound.geojson",
+                                         "check/203.geojson", "check/504.geojson"),
                          NameOf);
 
 }  // namespace

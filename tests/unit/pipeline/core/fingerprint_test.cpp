@@ -46,11 +46,13 @@ TEST_F(FingerprintFiles, OfAGltfFollowTheFilesItNames) {
 TEST_F(FingerprintFiles, OfOtherModelsFollowTheirLooks) {
   Put("town.obj", "v 0 0 0\nmtllib the town.mtl\n");
   Put("town.gml", "<app:imageURI>wall.jpg</app:imageURI>");
+  Put("scan.ply", "ply\nformat ascii 1.0\ncomment TextureFile wall.jpg\nend_header\n");
   Put("the town.mtl", "newmtl a\nmap_Kd -s 1 1 1 wall.jpg\n");
-  const std::string obj = Of("town.obj"), gml = Of("town.gml");
+  const std::string obj = Of("town.obj"), gml = Of("town.gml"), ply = Of("scan.ply");
   Put("wall.jpg", "other");
   EXPECT_NE(Of("town.obj"), obj);
   EXPECT_NE(Of("town.gml"), gml);
+  EXPECT_NE(Of("scan.ply"), ply);
   const std::string now = Of("town.obj");
   Put("the town.mtl", "newmtl b\nmap_Kd -s 1 1 1 wall.jpg\n");
   EXPECT_NE(Of("town.obj"), now);

@@ -2,11 +2,13 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <map>
 #include <random>
 
+#include "pipeline/footprint/check.h"
 #include "tests/unit/pipeline/footprint/test_town.h"
 
 namespace flaneur {
@@ -489,6 +491,45 @@ TEST(ExtractFootprints, AHouseAKilometreWideIsThatWide) {
   const Footprints f = Extract(town);
   ASSERT_EQ(f.obstacles.size(), 1u);
   EXPECT_LT(Differ(AreaOf(f), {Rectangle(-0.05, -0.05, 1000.05, 1000.05)}), 0.5);
+}
+
+// All lower than a person; or as high as mountains, whatever stands between them.
+TEST(ExtractFootprints, TownsOfOddHeightsAreAskedAboutOnce) {
+  const struct {
+    Vec3 house;
+    bool asked;
+  } kTowns[] = {{{1.2f, 1, 1.3f}, true}, {{1.2f, 1, 3}, false}, {{300, 280, 400}, true}, {{90, 60, 120}, false}};
+  for (const auto& [house, asked] : kTowns) {
+    TestTown town;
+    for (int i = 0; i < 5; ++i) {
+      const float x = 3 * house.x * static_cast<float>(i);
+      town.Node("house_" + std::to_string(i), NodeKind::kBuilding).Box({x, 0, 0}, {x + house.x, house.y, house.z});
+    }
+    Footprints footprints;
+    FootprintStats stats;
+    std::vector<std::string> warnings;
+    ASSERT_EQ(ExtractFootprints(town.scene, {}, &footprints, &stats, &warnings).message, "") << house.z;
+    EXPECT_EQ(!stats.doubt_of_units.empty(), asked) << house.z << ": " << stats.doubt_of_units;
+    EXPECT_EQ(std::count(warnings.begin(), warnings.end(), stats.doubt_of_units), asked ? 1 : 0);
+  }
+}
+
+// A post without a top is no roof's, and was nobody's where the model had open walls besides: a scan in one mesh.
+TEST(ExtractFootprints, AnOpenPostAmongOpenWallsStands) {
+  TestTown town;
+  town.Ground().Node("town", NodeKind::kBuilding).Box({10, 10, -0.3f}, {18, 18, 6});
+  town.Box({-0.15f, -0.15f, -0.1f}, {0.15f, 0.15f, 3}, {Side::kTop, Side::kBottom});
+  for (const Vec3 along : {Vec3{1.5f, 0, 0}, Vec3{0, 1.5f, 0}})
+    town.Quad(along * -1 + Vec3{0, 0, 1.5f}, along + Vec3{0, 0, 1.5f}, along + Vec3{0, 0, 4},
+              along * -1 + Vec3{0, 0, 4});
+  const Footprints footprints = Extract(town);
+  const auto post = std::find_if(footprints.obstacles.begin(), footprints.obstacles.end(), [](const Obstacle& o) {
+    return Contains(o.outer, {0.14, 0.14});
+  });
+  EXPECT_NE(post, footprints.obstacles.end());
+  std::vector<Finding> findings;
+  ASSERT_EQ(Check(footprints, &town.scene, {}, &findings).message, "");
+  for (const Finding& finding : findings) EXPECT_FALSE(finding.code >= 301 && finding.code <= 305) << finding.message;
 }
 
 TEST(ExtractFootprints, HousesOfOddSizesAreAskedAboutOnce) {

@@ -1,4 +1,4 @@
-// The option that says which axis of an OBJ points up.
+// The option that says which axis of a town's file points up.
 #pragma once
 #include <string>
 
@@ -10,9 +10,9 @@ class App;
 
 namespace flaneur {
 
-void AddObjUp(CLI::App* app, UpAxis* up);
+void AddUp(CLI::App* app, UpAxis* up);
 
-// What the option and tour.toml call it: "y", "z"; empty: judged.
+// What the option and tour.toml call it: "y", "-z", ...; empty: judged.
 UpAxis UpAxisNamed(const std::string& name);
 
 }  // namespace flaneur
