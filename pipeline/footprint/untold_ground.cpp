@@ -16,13 +16,14 @@ constexpr double kUpwards = 0.6;                      // of a face's normal, wha
 constexpr double kStep_m = 0.3, kSlope = 0.7;         // from cell to cell: a step, and as much of the cell's width
 constexpr double kRises_m = 1;                        // a wall; lower ones are steps, kerbs and parapets
 constexpr double kMaxRoofed = 0.6;                    // of a piece lies under something: more, and it is a floor
-constexpr double kMaxHanging = 0.15;        // of its area, walls that hang below it: more than a model's edge has
-constexpr double kBare = 0.5;               // of the town: ground alone, on which nothing stands
-constexpr double kMinGround = 0.1;          // of the town, the largest piece
-constexpr double kMinBesideLargest = 0.02;  // of that, any other
-constexpr double kEnoughGround = 0.3;       // of the largest piece: the town has ground already
-constexpr double kOnGround_m = 0.15;        // faces so little over it are kerbs and roads, and ground too
-constexpr double kMinLeft = 0.02;           // of an object's area, or nothing of it is left
+constexpr double kMaxHanging = 0.15;         // of its area, walls that hang below it: more than a model's edge has
+constexpr double kMaxHangingOfRising = 0.4;  // or of the walls on it, where a town wall is sunk into a slope
+constexpr double kBare = 0.5;                // of the town: ground alone, on which nothing stands
+constexpr double kMinGround = 0.1;           // of the town, the largest piece
+constexpr double kMinBesideLargest = 0.02;   // of that, any other
+constexpr double kEnoughGround = 0.3;        // of the largest piece: the town has ground already
+constexpr double kOnGround_m = 0.15;         // faces so little over it are kerbs and roads, and ground too
+constexpr double kMinLeft = 0.02;            // of an object's area, or nothing of it is left
 constexpr size_t kNone = static_cast<size_t>(-1);
 
 double AreaOf(const Triangle3& t) {
@@ -30,10 +31,25 @@ double AreaOf(const Triangle3& t) {
   return std::hypot(n.x, n.y, n.z) / 2;
 }
 
-bool ShowsUpwards(const Triangle3& t, bool either_way) {
+// Which side of its faces a model shows.
+enum class Shown { kFront, kBack, kEither };
+
+bool ShowsUpwards(const Triangle3& t, Shown shown) {
   const Point3 n = NormalOf(t);
-  const double up = either_way ? std::abs(n.z) : n.z;
+  const double up = shown == Shown::kFront ? n.z : shown == Shown::kBack ? -n.z : std::abs(n.z);
   return up > kUpwards * std::hypot(n.x, n.y, n.z);
+}
+
+// Of faces that are no walls, the highest cell by cell.
+GroundRaster SeenFromAbove(GroundRaster blank, const std::vector<TownObject>& objects, Shown shown) {
+  for (const TownObject& object : objects) {
+    for (Triangle3 t : object.triangles) {
+      if (!ShowsUpwards(t, shown)) continue;
+      for (Point3& p : t) p.z = -p.z;  // the raster keeps the lowest
+      DrawArea(t, &blank);
+    }
+  }
+  return blank;
 }
 
 // A piece of surface that one could walk on.
@@ -44,12 +60,19 @@ struct Region {
 
 class Finder {
  public:
-  Finder(const std::vector<size_t>& untagged, bool either_way, TownObjects* town)
-      : untagged_(untagged), either_way_(either_way), town_(*town) {}
+  Finder(const std::vector<size_t>& untagged, TownObjects* town) : untagged_(untagged), town_(*town) {}
 
-  bool Take() {
+  void Take() {
     Measure();
-    if (known_m2_ > kEnoughGround * town_m2_) return false;
+    if (known_m2_ > kEnoughGround * town_m2_) return;
+    if (!Find(IsInsideOut() ? Shown::kBack : Shown::kFront)) Find(Shown::kEither);
+  }
+
+ private:
+  bool Find(Shown shown) {
+    shown_ = shown;
+    regions_.clear();
+    ground_.clear();
     Draw();
     Join();
     if (std::none_of(regions_.begin(), regions_.end(), [&](const Region& r) { return IsLarge(r); })) return false;
@@ -58,7 +81,6 @@ class Finder {
     return Choose() && Move();
   }
 
- private:
   template <typename Use>
   void ForTriangles(Use use) const {
     for (const size_t i : untagged_)
@@ -75,13 +97,30 @@ class Finder {
     for (const GroundPatch& patch : town_.ground) known_m2_ += PlanArea(patch.triangles);
   }
 
-  // The lowest face that shows upwards, cell by cell.
-  void Draw() {
+  GroundRaster Blank() const {
     double cell_m = kCell_m;
     while (town_m2_ / (cell_m * cell_m) > kMaxCells) cell_m *= 2;
-    surface_ = BlankRaster(min_m_, max_m_, cell_m);
+    return BlankRaster(min_m_, max_m_, cell_m);
+  }
+
+  // Whether what is seen from above are mostly the backs of faces, as where a mirrored model was written.
+  bool IsInsideOut() const {
+    const GroundRaster fronts = SeenFromAbove(Blank(), town_.obstacles, Shown::kFront);
+    const GroundRaster backs = SeenFromAbove(Blank(), town_.obstacles, Shown::kBack);
+    size_t front = 0, back = 0;
+    for (size_t cell = 0; cell < fronts.height_m.size(); ++cell) {
+      const float f = fronts.height_m[cell], b = backs.height_m[cell];
+      if (f != kNoHeight && (b == kNoHeight || f <= b)) ++front;
+      else if (b != kNoHeight) ++back;
+    }
+    return back > front;
+  }
+
+  // The lowest face that shows upwards, cell by cell.
+  void Draw() {
+    surface_ = Blank();
     ForTriangles([&](const Triangle3& t) {
-      if (ShowsUpwards(t, either_way_)) DrawArea(t, &surface_);
+      if (ShowsUpwards(t, shown_)) DrawArea(t, &surface_);
     });
   }
 
@@ -169,7 +208,8 @@ class Finder {
   bool IsGround(const Region& region) const {
     const bool carries = region.rising_m2 > region.hanging_m2;
     const bool is_bare = region.rising_m2 + region.hanging_m2 == 0 && Area(region) > kBare * town_m2_;
-    return (carries || is_bare) && region.hanging_m2 < kMaxHanging * Area(region) &&
+    const double most_hanging_m2 = std::max(kMaxHanging * Area(region), kMaxHangingOfRising * region.rising_m2);
+    return (carries || is_bare) && region.hanging_m2 < most_hanging_m2 &&
            static_cast<double>(region.roofed) < kMaxRoofed * static_cast<double>(region.cells);
   }
 
@@ -185,7 +225,7 @@ class Finder {
 
   // Of the cells under its middle and its corners, as many as tell.
   bool IsOnGround(const Triangle3& t) const {
-    if (!ShowsUpwards(t, either_way_)) return false;
+    if (!ShowsUpwards(t, shown_)) return false;
     int on = 0, off = 0;
     const auto ask = [&](double x, double y, double z) {
       const int column = ColumnAt(surface_, x), row = RowAt(surface_, y);
@@ -245,7 +285,7 @@ class Finder {
   }
 
   const std::vector<size_t>& untagged_;  // of the obstacles
-  const bool either_way_;
+  Shown shown_ = Shown::kFront;
   TownObjects& town_;
   Point2 min_m_{1e300, 1e300}, max_m_{-1e300, -1e300};
   double town_m2_ = 0, known_m2_ = 0;
@@ -259,7 +299,7 @@ class Finder {
 
 void TakeUntoldGround(const std::vector<size_t>& untagged, TownObjects* town) {
   if (untagged.empty()) return;
-  if (!Finder(untagged, false, town).Take()) Finder(untagged, true, town).Take();
+  Finder(untagged, town).Take();
 }
 
 }  // namespace flaneur

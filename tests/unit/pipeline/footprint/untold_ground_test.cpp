@@ -61,6 +61,35 @@ TEST(UntoldGround, IsNotLookedForWhereTheTownSaysWhatItIs) {
   }
 }
 
+// A mirrored model whose faces all show their backs: the ground is the block's upper side, not the lower that then
+// shows upwards.
+TEST(UntoldGround, OfATownInsideOutIsItsUpperSide) {
+  for (const bool inside_out : {false, true}) {
+    TestTown town;
+    town.Node("block", NodeKind::kUntagged).Box({-40, -40, -1}, {40, 40, 0});
+    for (const float x : {-20.0f, 0.0f, 20.0f})
+      town.Node("house_" + std::to_string(x), NodeKind::kUntagged).Box({x, 0, 0}, {x + 9, 8, 6});
+    if (inside_out)
+      for (Mesh& mesh : town.scene.meshes)
+        for (size_t i = 0; i + 2 < mesh.indices.size(); i += 3) std::swap(mesh.indices[i], mesh.indices[i + 1]);
+    const TownObjects objects = SortTown(town.scene, 1);
+    EXPECT_NEAR(GroundArea(objects), 80 * 80, 1) << inside_out;
+    for (const GroundPatch& patch : objects.ground)
+      for (const Triangle3& t : patch.triangles) EXPECT_NEAR(t[0].z, 0, 1e-6) << inside_out;
+  }
+}
+
+// Round a hill, as high everywhere: uphill there is more of it in the ground than above.
+TEST(UntoldGround, CarriesATownWallThatIsSunkIntoIt) {
+  TestTown town = Hill("Object_4", true, false);
+  const auto wall = [&](Vec3 low, Vec3 high) { town.Box(low, high, {Side::kBottom}); };
+  wall({0, 0, -3}, {120, 1, 12.5f});
+  wall({0, 79, -3}, {120, 80, 12.5f});
+  wall({119, 1, -3}, {120, 79, 12.5f});
+  const TownObjects objects = SortTown(town.scene, 1);
+  EXPECT_GT(GroundArea(objects), 0.9 * 120 * 80);
+}
+
 // Nothing but houses: flat roofs, and in the second town the floors of rooms.
 TEST(UntoldGround, RoofsAndFloorsAreNone) {
   for (const bool floors : {false, true}) {
