@@ -226,6 +226,7 @@ def cape(
     calm_arms=0.55,
     stand_off=0.12,
     point=0.0,
+    tuck=0.0,
     lining=None,
     cell="cape",
 ):
@@ -233,7 +234,8 @@ def cape(
 
     It starts at the neck `top_deg` above the chest's middle and comes down to `bottom_deg`; from
     there it hangs to the place `hem`, where given. open_deg: half the opening in front. point:
-    lowers front and back. stand_off: how far at most it is pushed off what moves beneath it.
+    lowers front and back. stand_off: how far at most it is pushed off what moves beneath it. tuck: how far
+    its upper edge turns in, where a roll lies in it and nobody should look between the two.
     """
     size = tailor.size
     angles = _opened_angles(columns, open_deg)
@@ -266,6 +268,11 @@ def cape(
         closed,
     )
     tailor.grids[name] = (points, weights, angles)
+    if tuck:
+        inwards = (points[0].mean(axis=0) - points[0]) * [1, 1, 0]
+        inwards *= tuck * size / np.linalg.norm(inwards, axis=1, keepdims=True)
+        points = np.concatenate([[points[0] + inwards - [0, 0, 0.4 * tuck * size]], points])
+        weights = np.concatenate([weights[:1], weights])
     sheet = sf.grid(points, weights, cell, sf.mirrored_u(angles), closed=closed)
     tailor.worn["cape " + name] = sf.lined(
         sheet, columns, len(points), closed, 0.004 * size, lining or cell

@@ -83,7 +83,7 @@ PEOPLE = {
              "drop": 0.07,
              "edge": [[0, 44], [30, 38], [48, 18], [58, -14], [66, -40], [80, -50], [180, -52]]},
             {"piece": "cape", "name": "hood", "top_deg": 74, "bottom_deg": 12, "ease": 0.026,
-             "point": 0.03},
+             "point": 0.03, "tuck": 0.04},
             {"piece": "roll", "thickness": 0.024, "cell": "hood"},
         ],
         "props": [
@@ -238,7 +238,7 @@ PEOPLE = {
             dict(WOMAN_HAIR),
             dict(COIF, peak=0.03, edge=[[0, 58], [35, 50], [65, 24], [85, 0], [105, -12],
                                         [140, -30], [180, -40]]),
-            {"piece": "cape", "name": "shawl", "top_deg": 67, "bottom_deg": 16, "ease": 0.018,
+            {"piece": "cape", "name": "shawl", "top_deg": 67, "bottom_deg": 16, "ease": 0.018, "tuck": 0.05,
              "point": 0.10, "calm_arms": 0.15},
             {"piece": "roll", "thickness": 0.018},
         ],
@@ -276,7 +276,7 @@ PEOPLE = {
             {"piece": "shell", "name": "hair", "thickness": 0.009, "crown_thickness": 0.012,
              "roughness": 0.003, "top_deg": 64, "rows": 5,
              "edge": [[0, 44], [40, 34], [70, 10], [95, 4], [130, -25], [180, -34]]},
-            {"piece": "cape", "name": "cowl", "top_deg": 69, "bottom_deg": 8, "ease": 0.03},
+            {"piece": "cape", "name": "cowl", "top_deg": 69, "bottom_deg": 8, "ease": 0.03, "tuck": 0.05},
             {"piece": "roll"},
         ],
         "cloth": {

@@ -15,6 +15,7 @@ namespace {
 
 constexpr float kDefaultHeight_m = 1.75f;
 constexpr float kMinHeight_m = 0.5f, kMaxHeight_m = 2.3f;  // kept as they are in between
+constexpr float kSmallest_m = 0.8f;                        // who walks by themselves
 constexpr float kFlat = 0.4f;                              // of its width: a lower figure hardly stands
 constexpr float kHangs = 0.02f;                            // of the height: what hangs lower than the soles by more
 constexpr float kDefaultSpeed_mps = 1.3f;                  // of an adult, where nothing tells
@@ -183,7 +184,14 @@ bool IsPlausible(float height_m) { return height_m >= kMinHeight_m && height_m <
 // scale. Else in the unit that makes the skeleton a person's, else the usual height.
 float HeightByItself(const NormalizeOptions& options, const Avatar& avatar, float height,
                      std::vector<std::string>* warnings) {
-  if (options.scale > 0 || IsPlausible(height)) return height;
+  if (options.scale > 0) return height;
+  if (IsPlausible(height)) {
+    if (height < kSmallest_m && HeightOfSkeleton(avatar, options.told) > 0)
+      warnings->push_back(
+          "the figure is " + Metres(height) +
+          " m high, less than a child who walks; give its height, or a scale for all people of its pack");
+    return height;
+  }
   const float skeleton = HeightOfSkeleton(avatar, options.told);
   if (IsPlausible(skeleton)) return height;
   if (const float unit_m = UnitOf(skeleton); skeleton > 0 && unit_m > 0) {

@@ -342,6 +342,23 @@ TEST_F(AvatarFile, WhoHasNoClipsWalksByThoseThatComeWithTheProgram) {
   EXPECT_NE(FindClip(avatar_, "sweep"), nullptr);
 }
 
+// As figures of a toy set are, each file in itself a person.
+TEST_F(AvatarFile, WhoIsSmallerThanAChildWhoWalksIsAskedAbout) {
+  const auto asked = [&] {
+    return std::any_of(warnings_.begin(), warnings_.end(),
+                       [](const std::string& w) { return w.find("less than a child who walks") != std::string::npos; });
+  };
+  for (const float unit : {0.4f, 0.6f, 1.0f}) {
+    ASSERT_EQ(Read(Write(MadeHuman({.unit = unit}))), "");
+    EXPECT_EQ(asked(), unit == 0.4f) << unit;
+    EXPECT_NEAR(avatar_.height_m, 1.74f * unit, 0.03f) << "as it is all the same";
+  }
+  ReadAvatarOptions options;
+  options.height_m = 0.7f;
+  ASSERT_EQ(Read(Write(MadeHuman({.unit = 0.4f})), options), "");
+  EXPECT_FALSE(asked()) << "it was said";
+}
+
 // From the right hip to the left, in the clip's first key.
 Vec3 AcrossHips(const Avatar& avatar, const Clip& clip, const HumanShape& shape) {
   const Pose pose = PoseOf(avatar.joints, clip.transforms.data());
