@@ -87,8 +87,8 @@ def _ring(centre, side, front, angles):
 
 def _strap(tailor, high, low, angles_deg, stuff, columns=14, width=0.035, thickness=0.010):
     """A leather band about the trunk in the plane that holds the points `high` and `low` and
-    the forward direction; the angles go from forward (0) by `high` (90) to the back; both ends
-    slip under the garments.
+    the forward direction; the angles go from forward (0) by `high` (90) to the back; ends
+    that do not meet slip under the garments.
     """
     cell, tint = stuff
     size = tailor.size
@@ -102,14 +102,15 @@ def _strap(tailor, high, low, angles_deg, stuff, columns=14, width=0.035, thickn
     edge = 0.5 * width * size * across
     reach = []
     for c, s in zip(np.cos(around), np.sin(around)):
-        tree = over_sleeves if s > 0.5 else below_arms
+        tree = over_sleeves if s > 0.15 else below_arms
         beneath = [sf.outermost(tree, centre + k * edge, c * ahead + s * up, 0.5 * size) for k in (-1, 0, 1)]
         reach.append(max((r for r in beneath if r), default=0.02))
     flat = np.array(reach)[:, None] * np.stack([np.sin(around), -np.cos(around)], axis=1)
     angles = np.linspace(*np.radians(angles_deg), columns)
     corner = np.cos(0.5 * (angles[1] - angles[0]))  # the sides touch the trunk, not the corners
     taut = sf.hull_radii(flat, angles)[:, None] / corner
-    taut[[0, -1]] *= 0.88
+    if angles_deg[1] - angles_deg[0] < 360:
+        taut[[0, -1]] *= 0.88
     rays = np.cos(angles)[:, None] * ahead + np.sin(angles)[:, None] * up
     outside = centre + rays * (taut + thickness * size)
     inside = centre + rays * (taut - thickness * size)
@@ -189,7 +190,7 @@ def back_basket(tailor, wicker, filling, strap, height=0.44, width=0.17, depth=0
     return _prop(parts)
 
 
-STRAP_DEG = (-50, 230)  # of a strap from the front, over the shoulder, to the back
+STRAP_DEG = (-90, 270)  # of a strap all round, from the side over the front and the shoulder
 
 
 def _shoulder_to_side(tailor, sign, low=("waist", 0.0)):
@@ -224,7 +225,7 @@ def sack(tailor, cloth, strap, height=0.50, width=0.17, depth=0.12, lean_deg=14)
     return _prop(
         [
             _lathe(rings, _held(tailor, rings, "spine01"), cloth),
-            _strap(tailor, high, under, STRAP_DEG, strap, width=0.026),
+            _strap(tailor, high, under, STRAP_DEG, strap, 18, width=0.026),
         ]
     )
 
@@ -289,7 +290,7 @@ def shield(tailor, boards, metal, strap, radius=0.215, bulge=0.045):
                  bottom=False),
             part([(bulge, 0.06), (0.022, radius - 0.03)], boards, top=False, bottom=False),
             part([(0.026, radius - 0.035), (0.020, radius), (0.0, radius - 0.004)], metal, top=False),
-            _strap(tailor, high, under, STRAP_DEG, strap),
+            _strap(tailor, high, under, STRAP_DEG, strap, 18),
         ]
     )
 

@@ -13,7 +13,7 @@
 namespace flaneur {
 namespace {
 
-int to_keeper = -1;
+int owners_end = -1;
 pid_t keeper = 0;
 
 // In the keeper. It was forked from a process with threads, so it may call nothing that takes a lock.
@@ -42,7 +42,7 @@ pid_t keeper = 0;
 }
 
 void LetKeeperGo() {
-  ::close(to_keeper);
+  ::close(owners_end);
   ::waitpid(keeper, nullptr, 0);
 }
 
@@ -59,20 +59,24 @@ void StartKeeper() {
     ::close(ends[1]);
     return;
   }
-  to_keeper = ends[1];
+  owners_end = ends[1];
   std::atexit(LetKeeperGo);
 }
 
-void Tell(pid_t what) {
-  static std::once_flag once;
-  std::call_once(once, StartKeeper);
+void Tell(int to_keeper, pid_t what) {
   if (to_keeper < 0) return;
   while (::send(to_keeper, &what, sizeof what, MSG_NOSIGNAL) < 0 && errno == EINTR) {}
 }
 
 }  // namespace
 
-void KeepGroup(pid_t group) { Tell(group); }
-void ReleaseGroup(pid_t group) { Tell(-group); }
+int ToKeeper() {
+  static std::once_flag once;
+  std::call_once(once, StartKeeper);
+  return owners_end;
+}
+
+void KeepOwnGroup(int to_keeper) { Tell(to_keeper, ::getpid()); }
+void ReleaseGroup(pid_t group) { Tell(ToKeeper(), -group); }
 
 }  // namespace flaneur

@@ -56,8 +56,9 @@ Error OpenLog(const fs::path& path, int* descriptor) {
 }
 
 // In the child, forked from a process with threads: nothing here may take a lock.
-[[noreturn]] void Become(char** arguments, char** variables, pid_t parent, int log, int complaint) {
+[[noreturn]] void Become(char** arguments, char** variables, pid_t parent, int to_keeper, int log, int complaint) {
   ::setpgid(0, 0);  // a group of its own, so that it can be ended with all that it started
+  KeepOwnGroup(to_keeper);
   ::prctl(PR_SET_PDEATHSIG, SIGKILL);
   if (::getppid() != parent) ::_exit(127);
   for (int signal : {SIGINT, SIGTERM, SIGHUP, SIGPIPE}) ::signal(signal, SIG_DFL);
@@ -78,16 +79,20 @@ int Spawn(const std::vector<std::string>& argv, const RunOptions& options, int l
   int ends[2];
   if (::pipe2(ends, O_CLOEXEC) != 0) return errno;
   const pid_t parent = ::getpid();
+  const int to_keeper = ToKeeper();
   *child = ::fork();
   if (*child == 0)
-    Become(const_cast<char**>(argument_pointers.data()), const_cast<char**>(variable_pointers.data()), parent, log,
-           ends[1]);
+    Become(const_cast<char**>(argument_pointers.data()), const_cast<char**>(variable_pointers.data()), parent,
+           to_keeper, log, ends[1]);
   int reason = *child < 0 ? errno : 0;
   ::close(ends[1]);
   if (*child > 0) {
     ::setpgid(*child, *child);  // whoever of the two comes first
     while (::read(ends[0], &reason, sizeof reason) < 0 && errno == EINTR) {}
-    if (reason != 0) ::waitpid(*child, nullptr, 0);
+    if (reason != 0) {
+      ReleaseGroup(*child);
+      ::waitpid(*child, nullptr, 0);
+    }
   }
   ::close(ends[0]);
   return reason;
@@ -155,7 +160,6 @@ Error RunProcess(const std::vector<std::string>& argv, const RunOptions& options
   const int code = Spawn(argv, options, log, &child);
   ::close(log);
   if (code) return Fail(argv[0] + ": cannot run: " + std::strerror(code));
-  KeepGroup(child);
   EndWithUs(child);
   const std::string why_ended = AwaitEnd(child, options);
   Forget(child);

@@ -1,12 +1,26 @@
 #include "pipeline/core/blender.h"
 
 #include <gtest/gtest.h>
+#include <signal.h>
+#include <sys/syscall.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
+#include <chrono>
 #include <cstdlib>
+#include <functional>
 #include <optional>
+#include <thread>
 
+#include "pipeline/core/subprocess.h"
 #include "pipeline/core/temporary_folder.h"
 #include "runtime/base/file.h"
+
+// In place of the C library's: slow where a test asks for it, as on a machine that is busy.
+extern "C" ssize_t send(int socket, const void* data, size_t size, int flags) {
+  if (std::getenv("FLANEUR_TEST_SLOW_SEND")) ::usleep(500'000);
+  return ::syscall(SYS_sendto, socket, data, size, flags, nullptr, 0);
+}
 
 namespace flaneur {
 namespace {
@@ -131,6 +145,45 @@ TEST_F(Subprocess, MissingScriptIsNamed) {
   const Variable blender("FLANEUR_BLENDER", Program("exit 0").string());
   const Error error = RunBlenderScript("no_such_script.py", "{}", {}, nullptr);
   EXPECT_NE(error.message.find("no_such_script.py"), std::string::npos);
+}
+
+bool Within10s(const std::function<bool()>& is_so) {
+  for (int i = 0; i < 1000 && !is_so(); ++i) std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  return is_so();
+}
+
+// For the test below, in a process of its own.
+TEST(DISABLED_Subprocess, RunsWhatItIsTold) {
+  const char* program = std::getenv("FLANEUR_TEST_PROGRAM");
+  if (!program) GTEST_SKIP() << "part of another test";
+  ProcessResult result;
+  EXPECT_FALSE(RunProcess({program}, {}, &result));
+}
+
+// Whoever starts a program and is killed the moment that it runs.
+TEST_F(Subprocess, EndsWithWhoStartedItHoweverSoonThatIsKilled) {
+  const fs::path marker = folder_.path() / "marker";
+  const fs::path program = Program("sleep 60 &\necho $! > " + marker.string() + ".new\nmv " + marker.string() +
+                                   ".new " + marker.string() + "\nwait");
+  const Variable told("FLANEUR_TEST_PROGRAM", program.string()), slow("FLANEUR_TEST_SLOW_SEND", "1");
+  const pid_t owner = ::fork();
+  if (owner == 0) {
+    ::execl("/proc/self/exe", "self", "--gtest_filter=DISABLED_Subprocess.*", "--gtest_also_run_disabled_tests",
+            nullptr);
+    ::_exit(127);
+  }
+  ASSERT_TRUE(Within10s([&] { return fs::exists(marker); }));
+  ::kill(owner, SIGKILL);
+  ASSERT_EQ(::waitpid(owner, nullptr, 0), owner);
+  std::string text;
+  ASSERT_FALSE(ReadTextFile(marker, &text));
+  const auto sleeper = static_cast<pid_t>(std::stol(text));
+  const auto is_gone = [&] {
+    std::string stat;
+    return ReadTextFile("/proc/" + std::to_string(sleeper) + "/stat", &stat) || stat.find(") Z ") != std::string::npos;
+  };
+  EXPECT_TRUE(Within10s(is_gone)) << "started by what was started, and left alone";
+  if (!is_gone()) ::kill(sleeper, SIGKILL);
 }
 
 TEST(TemporaryFolderTest, IsGoneWithItsContents) {
