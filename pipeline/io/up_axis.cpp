@@ -10,6 +10,7 @@ namespace {
 
 // A town is so many times wider than high, and a row of houses so much longer than deep that it is no town on its side.
 constexpr float kFlat = 2.5f;
+constexpr float kLeastTown = 20;  // in units, high and wide: what is smaller may be a wall, a door or a banner of a kit
 
 }  // namespace
 
@@ -36,7 +37,8 @@ bool LiesOnItsSide(const Scene& scene, UpAxis* thin) {
   }
   const Vec3 size = max - min;
   *thin = size.x < size.z ? UpAxis::kX : UpAxis::kZ;
-  return std::min(size.y, std::max(size.x, size.z)) > kFlat * std::min(size.x, size.z);
+  const float tall = std::min(size.y, std::max(size.x, size.z));
+  return tall > kLeastTown && tall > kFlat * std::min(size.x, size.z);
 }
 
 }  // namespace flaneur

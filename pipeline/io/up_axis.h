@@ -28,7 +28,8 @@ V WithZUp(const V& p, UpAxis up) {
 // Turns a scene, whose +Y is up, so that `up` is.
 void StandUp(UpAxis up, Scene* scene);
 
-// Whether the scene lies on its side: far wider in two directions, up among them, than in the third, as no town is.
+// Whether the scene lies on its side: far wider in two directions, up among them, than in the third, as no town is,
+// and larger than a part of a town.
 // `thin`: the axis of that.
 bool LiesOnItsSide(const Scene& scene, UpAxis* thin);
 

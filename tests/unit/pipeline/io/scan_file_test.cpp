@@ -171,7 +171,9 @@ TEST_F(ScanFile, AGltfThatLiesOnItsSideIsSaidAndTurned) {
   StandUp(UpAxis::kZ, &town);
   EXPECT_FALSE(LiesOnItsSide(town, &thin));
   EXPECT_LT(Length(TransformPoint(town.nodes[0].world, {0, 180, 20}) - Vec3{0, 20, -180}), 1e-4f);
-  // Neither a tower nor a row of houses does.
+  // Neither a wall of a kit nor a tower nor a row of houses does.
+  town.nodes[0].world = FromTranslationRotationScale({}, {}, {0.02f, 0.02f, 0.02f});
+  EXPECT_FALSE(LiesOnItsSide(town, &thin));
   town.nodes[0].world = FromTranslationRotationScale({}, {}, {0.05f, 0.3f, 0.5f});
   EXPECT_FALSE(LiesOnItsSide(town, &thin));
   town.nodes[0].world = FromTranslationRotationScale({}, {}, {1, 0.08f, 0.5f});
