@@ -19,6 +19,8 @@
 #include "pipeline/io/gltf.h"
 #include "runtime/base/array.h"
 #include "runtime/base/file.h"
+#include "runtime/base/limits.h"
+#include "runtime/base/text.h"
 
 namespace flaneur {
 
@@ -143,11 +145,20 @@ bool AnywhereToWalk(const GroundRaster& ground, const Footprints& footprints) {
   return false;
 }
 
+// The player takes no wider one.
+Error CheckWidth(const GroundRaster& ground) {
+  const double side_m = std::max(ground.columns, ground.rows) * static_cast<double>(ground.cell_m);
+  if (side_m <= kMostSide_m) return Ok();
+  return Fail("the town is " + Compact(std::ceil(side_m / 1000)) + " km wide, and a tour's may be " +
+              Compact(kMostSide_m / 1000) + " km; are its units metres? See the option for the scale");
+}
+
 Error MakeFootprints(Baking* baking, StageReport* report, Warnings* warnings) {
   const TourSettings& s = baking->settings;
   TourParts* parts = &baking->parts;
   if (Error e = ReadTownOnce(baking)) return e;
   if (Error e = RasterizeGround(parts->town, s.ground, &parts->ground)) return e;
+  if (Error e = CheckWidth(parts->ground)) return e;
   FootprintStats stats;
   if (Error e = ExtractFootprints(parts->town, s.footprints, &parts->footprints, &stats, warnings)) return e;
   if (!AnywhereToWalk(parts->ground, parts->footprints)) {

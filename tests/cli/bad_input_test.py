@@ -90,6 +90,13 @@ class BadInput(ProgramTest):
         self.assert_fails(self.bake(self.write_tour()), "no walkable ground", "flaneur_kind")
         self.assertFalse((self.folder / "out/small.glb").exists())
 
+    def test_a_town_wider_than_the_player_takes_stops_the_bake(self):
+        self.with_avatar()
+        write_town(self.folder / "town.glb", [("ground", {"flaneur_kind": "ground"}, *quad(10_200.0)),
+                                              ("keep", {"flaneur_kind": "building"}, *box(-12.0, -12.0, 24.0, 24.0, 9.0))])
+        self.assert_fails(self.bake(self.write_tour()), "21 km wide", "20 km", "units metres")
+        self.assertFalse((self.folder / "out/small.glb").exists())
+
     def test_non_finite_vertices_name_the_house(self):
         town = self.folder / "town.glb"
         write_box_town(town, spoil=lambda positions: [(float("nan"), y, z) for _, y, z in positions])
