@@ -22,6 +22,10 @@ inline constexpr double kMaxHouse_m = 500;       // wide, half of them at most
 inline constexpr double kMaxHeight_m = 150;      // high, half of them at most
 inline constexpr double kMaxOfOne_m = 5'000;     // wide, a town that is one thing; and a tenth as high
 
+// Trees and lamps.
+inline constexpr double kTrunkTop_m = 1.2;  // over the ground: crowns and lanterns begin above
+inline constexpr double kMinTrunk_m = 0.3;  // of the band at least
+
 // The ground.
 inline constexpr int kSmoothingRounds = 30;     // over the heights of cells without ground
 inline constexpr double kMaxSlopeStep_m = 0.5;  // higher steps between neighbouring cells are no slope

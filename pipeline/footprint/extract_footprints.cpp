@@ -171,10 +171,18 @@ double FarthestEnd(const std::vector<Segment>& lines, Point2 center) {
   return radius;
 }
 
-// Round what of a tree or lamp is in the band; nothing where it neither has a part there nor says its radius.
+// What of a tree or lamp is in the lower part of the band, above which crowns begin; else of all of the band.
+std::vector<Segment> TrunkOf(const Site& site, const Stand& stand, const TownObject& object) {
+  FootprintOptions options = site.options;
+  options.band_m[1] = std::min(options.band_m[1], std::max(options.band_m[0] + kMinTrunk_m, kTrunkTop_m));
+  const std::vector<Segment> trunk = Lines(PartsInBand({options, site.ground}, stand, object.triangles));
+  return trunk.empty() ? Lines(PartsInBand(site, stand, object.triangles)) : trunk;
+}
+
+// Round the trunk; nothing where it neither has a part in the band nor says its radius.
 std::optional<Obstacle> Circle(const Site& site, const TownObject& object) {
   const Stand stand(site, object);
-  const std::vector<Segment> lines = Lines(PartsInBand(site, stand, object.triangles));
+  const std::vector<Segment> lines = TrunkOf(site, stand, object);
   if (lines.empty() && object.radius_m <= 0) return std::nullopt;
   BoundingBox box = BoundingBoxOf(lines);
   if (lines.empty()) box = {{object.min_m.x, object.min_m.y}, {object.max_m.x, object.max_m.y}};

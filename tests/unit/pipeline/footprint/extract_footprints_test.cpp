@@ -493,6 +493,24 @@ TEST(ExtractFootprints, AHouseAKilometreWideIsThatWide) {
   EXPECT_LT(Differ(AreaOf(f), {Rectangle(-0.05, -0.05, 1000.05, 1000.05)}), 0.5);
 }
 
+// Crowns block nothing, also where they come down to 1.5 m; of a bush, and of what hangs in the air, all blocks.
+TEST(ExtractFootprints, ATreeIsAsWideAsItsTrunk) {
+  const struct {
+    float crown_from_m;
+    bool has_trunk;
+    double radius_m;
+  } kTrees[] = {{1.5f, true, 0.2}, {2.5f, true, 0.2}, {0.3f, true, 1.5}, {1.5f, false, 1.5}};
+  for (const auto& [from, has_trunk, radius_m] : kTrees) {
+    TestTown town;
+    town.Ground().Node("tree", NodeKind::kTree);
+    if (has_trunk) town.Column({0, 0, 0}, 0.2f, 3, 12);
+    town.Column({0, 0, from}, 1.5f, 3, 12);
+    const Footprints footprints = Extract(town);
+    ASSERT_EQ(footprints.obstacles.size(), 1u) << from;
+    EXPECT_NEAR(footprints.obstacles[0].radius_m, radius_m + footprints.clearance_m, 0.01) << from;
+  }
+}
+
 // All lower than a person; or as high as mountains, whatever stands between them.
 TEST(ExtractFootprints, TownsOfOddHeightsAreAskedAboutOnce) {
   const struct {
