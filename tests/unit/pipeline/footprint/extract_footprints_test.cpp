@@ -511,6 +511,20 @@ TEST(ExtractFootprints, ATreeIsAsWideAsItsTrunk) {
   }
 }
 
+// A low branch on one side drew it aside, off the trunk.
+TEST(ExtractFootprints, ATreeStandsWhereItsTrunkDoes) {
+  TestTown town;
+  town.Ground()
+      .Node("tree", NodeKind::kTree, 0.25f)
+      .Column({3, 4, 0}, 0.2f, 3, 12)
+      .Box({3, 3.9f, 1.6f}, {5, 4.1f, 1.7f});
+  const Footprints footprints = Extract(town);
+  ASSERT_EQ(footprints.obstacles.size(), 1u);
+  EXPECT_NEAR(footprints.obstacles[0].center.x, 3, 0.01);
+  EXPECT_NEAR(footprints.obstacles[0].center.y, 4, 0.01);
+  EXPECT_NEAR(footprints.obstacles[0].radius_m, 0.25 + footprints.clearance_m, 1e-6);
+}
+
 // All lower than a person; or as high as mountains, whatever stands between them.
 TEST(ExtractFootprints, TownsOfOddHeightsAreAskedAboutOnce) {
   const struct {
