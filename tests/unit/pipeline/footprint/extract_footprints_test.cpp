@@ -511,6 +511,23 @@ TEST(ExtractFootprints, ATreeIsAsWideAsItsTrunk) {
   }
 }
 
+// In one mesh without ground, a town wall sunk deeper than the houses stand, one of them on posts: the check looks at
+// it over the ground that the extraction found.
+TEST(ExtractFootprints, ATownWithoutGroundIsCheckedOverTheSameGround) {
+  TestTown town;
+  town.Node("town", NodeKind::kBuilding);
+  const std::set<Side> open{Side::kBottom, Side::kTop};
+  for (const float y : {-30.0f, 29.0f}) town.Box({-30, y, -3}, {30, y + 1, 6}, open);
+  for (const float x : {-30.0f, 29.0f}) town.Box({x, -29, -3}, {x + 1, 29, 6}, open);
+  for (const float x : {-22.0f, -8.0f, 8.0f}) town.Box({x, 8, 0}, {x + 8, 16, 7}, {Side::kBottom});
+  for (const float x : {-4.0f, 3.7f})
+    for (const float y : {-16.0f, -8.3f}) town.Box({x, y, 0}, {x + 0.3f, y + 0.3f, 2.6f}, {Side::kBottom});
+  town.Box({-4.2f, -16.2f, 2.6f}, {4.2f, -7.8f, 5.7f}, {Side::kBottom});
+  std::vector<Finding> findings;
+  ASSERT_EQ(Check(Extract(town), &town.scene, {}, &findings).message, "");
+  for (const Finding& finding : findings) EXPECT_FALSE(finding.code >= 301 && finding.code <= 305) << finding.message;
+}
+
 // A low branch on one side drew it aside, off the trunk.
 TEST(ExtractFootprints, ATreeStandsWhereItsTrunkDoes) {
   TestTown town;
