@@ -31,10 +31,6 @@ def by_operator(module, name, **options):
     return read
 
 
-def import_obj(path):
-    by_operator(*(("wm", "obj_import") if knows(bpy.ops.wm, "obj_import") else ("import_scene", "obj")))(path)
-
-
 def import_x3d(path):
     try:  # the one of Blender 3.4 opens files in a way that Python 3.11 no longer knows
         from io_scene_x3d import import_x3d as importer
@@ -45,7 +41,8 @@ def import_x3d(path):
 
 
 IMPORTERS = {
-    ".obj": import_obj, ".dae": by_operator("wm", "collada_import"),
+    ".obj": by_operator("wm", "obj_import") if knows(bpy.ops.wm, "obj_import") else by_operator("import_scene", "obj"),
+    ".dae": by_operator("wm", "collada_import"),
     ".fbx": by_operator("import_scene", "fbx", use_custom_props=True),
     ".x3d": import_x3d, ".wrl": import_x3d,
     ".abc": by_operator("wm", "alembic_import", as_background_job=False),

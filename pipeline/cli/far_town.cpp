@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "runtime/base/array.h"
-
 namespace flaneur {
 namespace {
 
@@ -12,18 +10,10 @@ constexpr double kStep_m = 100;
 
 // x east, y north, z up.
 bool Middle(const Scene& town, Point3* middle) {
-  Point3 low{1e300, 1e300, 1e300}, high{-1e300, -1e300, -1e300};
-  for (const SceneNode& node : town.nodes) {
-    for (const int mesh : node.meshes) {
-      for (const Vec3& position : At(town.meshes, mesh).positions) {
-        const Vec3 p = GroundFromGltf(TransformPoint(node.world, position));
-        low = {std::min<double>(low.x, p.x), std::min<double>(low.y, p.y), std::min<double>(low.z, p.z)};
-        high = {std::max<double>(high.x, p.x), std::max<double>(high.y, p.y), std::max<double>(high.z, p.z)};
-      }
-    }
-  }
+  Point3 low, high;
+  if (!ExtentOf(town, &low, &high)) return false;
   *middle = {(low.x + high.x) / 2, (low.y + high.y) / 2, (low.z + high.z) / 2};
-  return low.x <= high.x;
+  return true;
 }
 
 void Subtract(double by, float* value) { *value = static_cast<float>(static_cast<double>(*value) - by); }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <initializer_list>
 #include <set>
 
 #include "pipeline/cli/life_settings.h"
@@ -12,6 +13,8 @@
 
 namespace flaneur {
 namespace {
+
+constexpr std::initializer_list<const char*> kAxes{"", "x", "y", "z", "-x", "-y", "-z"};
 
 void ReadSource(TomlTable* table, SourceSettings* source) {
   table->File("file", &source->file);
@@ -35,7 +38,7 @@ void ReadPart(TomlTable table, TourSettings* settings) {
   table.Point("position_m", &part.position_m);
   table.Number("yaw_deg", &part.yaw_deg, -360, 360);
   table.Number("scale", &part.scale, 1e-6, 1e6);
-  table.Choice("up", &part.up, {"", "x", "y", "z", "-x", "-y", "-z"});
+  table.Choice("up", &part.up, kAxes);
   if (part.file.empty()) table.Refuse("a [[town.part]] needs a file");
   table.Finish();
   settings->parts.push_back(part);
@@ -44,7 +47,7 @@ void ReadPart(TomlTable table, TourSettings* settings) {
 void ReadTown(TomlTable table, TourSettings* settings) {
   ReadSource(&table, &settings->town);
   table.Number("scale", &settings->town_scale, 1e-6, 1e6);
-  table.Choice("up", &settings->town_up, {"", "x", "y", "z", "-x", "-y", "-z"});
+  table.Choice("up", &settings->town_up, kAxes);
   TomlTable georeference = table.Table("georeference");
   georeference.Text("crs", &settings->georeference.crs);
   georeference.MapPoint("origin_m", &settings->georeference.origin_m.x, &settings->georeference.origin_m.y);
@@ -121,8 +124,8 @@ void ReadAvatarPart(TomlTable table, AvatarSettings* avatar) {
 
 void ReadStance(TomlTable* table, AvatarSettings* avatar) {
   table->Number("scale", &avatar->scale, 0, 1e6);
-  table->Choice("up", &avatar->up, {"", "x", "y", "z", "-x", "-y", "-z"});
-  table->Choice("forward", &avatar->forward, {"", "x", "y", "z", "-x", "-y", "-z"});
+  table->Choice("up", &avatar->up, kAxes);
+  table->Choice("forward", &avatar->forward, kAxes);
   if (avatar->scale > 0 && avatar->height_m > 0) table->Refuse("an [[avatar]] has a scale or a height_m, not both");
 }
 

@@ -65,7 +65,7 @@ std::vector<fs::path> PicturesOfPly(const fs::path& ply, const std::string& text
   PlyHeader header;
   std::vector<fs::path> files;
   if (ReadPlyHeader(text, &header)) return files;
-  for (const std::string& name : header.pictures) files.push_back(BesideObj(ply.parent_path(), name));
+  for (const std::string& name : header.pictures) files.push_back(BesideModel(ply.parent_path(), name));
   return files;
 }
 

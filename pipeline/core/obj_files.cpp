@@ -1,7 +1,6 @@
 #include "pipeline/core/obj_files.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 
 #include "runtime/base/file.h"
@@ -39,8 +38,7 @@ std::vector<float> TakeNumbers(std::string_view* text) {
     std::string_view rest = *text;
     const std::string_view word = NextWord(&rest);
     float value = 0;
-    const auto [end, problem] = std::from_chars(word.data(), word.data() + word.size(), value);
-    if (problem != std::errc() || end != word.data() + word.size() || !std::isfinite(value)) break;
+    if (!ReadNumber(word, &value) || !std::isfinite(value)) break;
     numbers.push_back(value);
     *text = rest;
   }
@@ -71,7 +69,7 @@ ObjPicture ReadObjPicture(std::string_view text) {
   return picture;
 }
 
-fs::path BesideObj(const fs::path& folder, std::string written) {
+fs::path BesideModel(const fs::path& folder, std::string written) {
   std::replace(written.begin(), written.end(), '\\', '/');
   if (written.size() > 1 && written.front() == '"' && written.back() == '"')
     written = written.substr(1, written.size() - 2);
@@ -83,12 +81,12 @@ fs::path BesideObj(const fs::path& folder, std::string written) {
 }
 
 std::vector<fs::path> ObjLibraries(const fs::path& obj, std::string_view named) {
-  const fs::path whole = BesideObj(obj.parent_path(), std::string(named));
+  const fs::path whole = BesideModel(obj.parent_path(), std::string(named));
   if (IsThere(whole)) return {whole};
   std::vector<fs::path> libraries;
   bool any = false;
   for (std::string_view word = NextWord(&named); !word.empty(); word = NextWord(&named)) {
-    libraries.push_back(BesideObj(obj.parent_path(), std::string(word)));
+    libraries.push_back(BesideModel(obj.parent_path(), std::string(word)));
     any = any || IsThere(libraries.back());
   }
   return any ? libraries : std::vector<fs::path>{whole};
@@ -108,7 +106,7 @@ std::vector<fs::path> FilesOfObj(const fs::path& obj, std::string_view text) {
       if (ReadTextFile(library, &material_text)) continue;
       ForObjLines(material_text, [&](std::string_view map, std::string_view picture) {
         if (map == "map_Kd" || map == "map_d")
-          files.push_back(BesideObj(library.parent_path(), ReadObjPicture(picture).file));
+          files.push_back(BesideModel(library.parent_path(), ReadObjPicture(picture).file));
       });
     }
   }

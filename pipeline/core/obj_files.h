@@ -1,6 +1,8 @@
-// What a Wavefront OBJ names beside itself: material libraries, and the pictures that these name.
+// What a Wavefront OBJ names beside itself: material libraries, and the pictures that these name. Its words and names
+// are read like those of a PLY.
 #pragma once
 #include <algorithm>
+#include <charconv>
 #include <filesystem>
 #include <string>
 #include <string_view>
@@ -14,6 +16,9 @@ namespace flaneur {
 std::string_view NextWord(std::string_view* text);
 // Without blanks and the like at either end.
 std::string_view Trimmed(std::string_view text);
+// Whether the word is a number as a whole.
+template <typename Number>
+bool ReadNumber(std::string_view word, Number* value);
 // Cuts off up to three finite numbers, as many as come next.
 std::vector<float> TakeNumbers(std::string_view* text);
 
@@ -33,12 +38,18 @@ std::vector<std::filesystem::path> ObjLibraries(const std::filesystem::path& obj
 
 // The file that a name written on any system means: below the folder as it stands, else the bare name in the folder,
 // as when a path of the artist's own disk was written.
-std::filesystem::path BesideObj(const std::filesystem::path& folder, std::string written);
+std::filesystem::path BesideModel(const std::filesystem::path& folder, std::string written);
 
 // All of them, of an OBJ with this text.
 std::vector<std::filesystem::path> FilesOfObj(const std::filesystem::path& obj, std::string_view text);
 
 // ---- Definitions ----
+
+template <typename Number>
+bool ReadNumber(std::string_view word, Number* value) {
+  const auto [end, problem] = std::from_chars(word.data(), word.data() + word.size(), *value);
+  return problem == std::errc() && end == word.data() + word.size();
+}
 
 template <typename Use>
 void ForObjLines(std::string_view text, Use use) {

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <utility>
 
 #include "pipeline/core/obj_files.h"
@@ -47,10 +46,7 @@ Error ReadFormat(std::string_view word, PlyFormat* format) {
 Error ReadElement(std::string_view rest, PlyHeader* header) {
   PlyElement element;
   element.name = NextWord(&rest);
-  const std::string_view count = NextWord(&rest);
-  const auto [end, problem] = std::from_chars(count.data(), count.data() + count.size(), element.count);
-  if (element.name.empty() || problem != std::errc() || end != count.data() + count.size())
-    return Fail("an element needs a name and how many there are");
+  if (!ReadNumber(NextWord(&rest), &element.count)) return Fail("an element needs a name and how many there are");
   header->elements.push_back(std::move(element));
   return Ok();
 }

@@ -48,4 +48,7 @@ struct Scene {
   std::string reference_system;  // of the source's coordinates: "EPSG:25832"; empty: not known
 };
 
+// Of all vertices, x east, y north, z up. False where there are none.
+bool ExtentOf(const Scene& scene, Point3* low, Point3* high);
+
 }  // namespace flaneur

@@ -40,12 +40,13 @@ bool ShowsUpwards(const Triangle3& t, Shown shown) {
   return up > kUpwards * std::hypot(n.x, n.y, n.z);
 }
 
-// Of faces that are no walls, the highest cell by cell.
-GroundRaster SeenFromAbove(GroundRaster blank, const std::vector<TownObject>& objects, Shown shown) {
+// The highest of the faces that count, cell by cell; heights are turned over, since rasters keep the lowest.
+template <typename Counts>
+GroundRaster SeenFromAbove(GroundRaster blank, const std::vector<TownObject>& objects, Counts counts) {
   for (const TownObject& object : objects) {
     for (Triangle3 t : object.triangles) {
-      if (!ShowsUpwards(t, shown)) continue;
-      for (Point3& p : t) p.z = -p.z;  // the raster keeps the lowest
+      if (!counts(t)) continue;
+      for (Point3& p : t) p.z = -p.z;
       DrawArea(t, &blank);
     }
   }
@@ -105,8 +106,10 @@ class Finder {
 
   // Whether what is seen from above are mostly the backs of faces, as where a mirrored model was written.
   bool IsInsideOut() const {
-    const GroundRaster fronts = SeenFromAbove(Blank(), town_.obstacles, Shown::kFront);
-    const GroundRaster backs = SeenFromAbove(Blank(), town_.obstacles, Shown::kBack);
+    const auto seen = [&](Shown shown) {
+      return SeenFromAbove(Blank(), town_.obstacles, [&](const Triangle3& t) { return ShowsUpwards(t, shown); });
+    };
+    const GroundRaster fronts = seen(Shown::kFront), backs = seen(Shown::kBack);
     size_t front = 0, back = 0;
     for (size_t cell = 0; cell < fronts.height_m.size(); ++cell) {
       const float f = fronts.height_m[cell], b = backs.height_m[cell];
@@ -182,15 +185,7 @@ class Finder {
 
   // Counts the cells of each region that something covers.
   void LookUp() {
-    GroundRaster under = surface_;  // heights turned over, so that the highest is the lowest
-    std::fill(under.height_m.begin(), under.height_m.end(), kNoHeight);
-    for (const TownObject& object : town_.obstacles) {
-      for (Triangle3 t : object.triangles) {
-        if (IsWall(t)) continue;
-        for (Point3& p : t) p.z = -p.z;
-        DrawArea(t, &under);
-      }
-    }
+    const GroundRaster under = SeenFromAbove(Blank(), town_.obstacles, [](const Triangle3& t) { return !IsWall(t); });
     for (size_t cell = 0; cell < region_.size(); ++cell) {
       const bool covered = region_[cell] != kNone && under.height_m[cell] != kNoHeight &&
                            -under.height_m[cell] > surface_.height_m[cell] + static_cast<float>(kRises_m);

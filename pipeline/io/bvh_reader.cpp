@@ -1,12 +1,12 @@
 #include "pipeline/io/bvh_reader.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "pipeline/core/obj_files.h"
 #include "pipeline/core/rotation.h"
 #include "runtime/base/array.h"
 #include "runtime/base/file.h"
@@ -77,9 +77,8 @@ class BvhReader {
 
   Error Number(float* value) {
     const std::string_view word = words_.Next();
-    const auto [end, code] = std::from_chars(word.data(), word.data() + word.size(), *value);
     if (word.empty()) return Wrong("the file ends where a number is due");
-    if (code != std::errc() || end != word.data() + word.size() || !std::isfinite(*value))
+    if (!ReadNumber(word, value) || !std::isfinite(*value))
       return Wrong("'" + OneLine(std::string(word)) + "' is no number");
     return Ok();
   }

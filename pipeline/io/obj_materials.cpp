@@ -50,7 +50,7 @@ void ObjMaterials::AddLibrary(const fs::path& library) {
       if (!alpha.empty()) color.w = key == "d" ? alpha[0] : 1 - alpha[0];
     } else if (key == "map_Kd") {
       const ObjPicture picture = ReadObjPicture(rest);
-      entry->picture = BesideObj(library.parent_path(), picture.file);
+      entry->picture = BesideModel(library.parent_path(), picture.file);
       entry->look.uv_scale = picture.scale;
       entry->look.uv_offset = picture.offset;
     } else if (key == "map_d") {

@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <string_view>
 
@@ -10,7 +9,6 @@
 #include "pipeline/io/scene_reader.h"
 #include "pipeline/io/town_builder.h"
 #include "runtime/base/file.h"
-#include "runtime/base/srgb.h"
 #include "runtime/base/text.h"
 
 namespace flaneur {
@@ -56,10 +54,9 @@ class Reader {
     return Ok();
   }
 
-  static bool ReadNumber(std::string_view word, double* value) {
+  static bool ReadFinite(std::string_view word, double* value) {
     if (!word.empty() && word[0] == '+') word.remove_prefix(1);
-    const auto [end, problem] = std::from_chars(word.data(), word.data() + word.size(), *value);
-    return problem == std::errc() && end == word.data() + word.size() && std::isfinite(*value);
+    return ReadNumber(word, value) && std::isfinite(*value);
   }
 
   // A place, and behind it a colour where the program that wrote it has one for each vertex.
@@ -67,16 +64,15 @@ class Reader {
     Point3 p;
     for (double* value : {&p.x, &p.y, &p.z}) {
       const std::string_view word = NextWord(&line);
-      if (!ReadNumber(word, value))
+      if (!ReadFinite(word, value))
         return Bad("'" + std::string(word.substr(0, 20)) + "' is no coordinate; a vertex needs three numbers");
     }
     std::array<double, 3> rgb{};
     const bool colored =
-        std::all_of(rgb.begin(), rgb.end(), [&](double& v) { return ReadNumber(NextWord(&line), &v); });
+        std::all_of(rgb.begin(), rgb.end(), [&](double& v) { return ReadFinite(NextWord(&line), &v); });
     if (colored) {
-      const auto linear = [](double v) { return LinearFromSrgb(static_cast<float>(std::clamp(v, 0.0, 1.0))); };
       soup_.colors.resize(soup_.points.size(), {1, 1, 1, 1});
-      soup_.colors.push_back({linear(rgb[0]), linear(rgb[1]), linear(rgb[2]), 1});
+      soup_.colors.push_back(ColorOfPoint(rgb[0], rgb[1], rgb[2]));
     }
     soup_.points.push_back(p);
     return Ok();
@@ -85,9 +81,9 @@ class Reader {
   Error TakeTexturePlace(std::string_view line) {
     double u = 0, v = 0;
     std::string_view word = NextWord(&line);
-    if (!ReadNumber(word, &u)) return Bad("'" + std::string(word.substr(0, 20)) + "' is no texture coordinate");
+    if (!ReadFinite(word, &u)) return Bad("'" + std::string(word.substr(0, 20)) + "' is no texture coordinate");
     word = NextWord(&line);
-    if (!word.empty() && !ReadNumber(word, &v))
+    if (!word.empty() && !ReadFinite(word, &v))
       return Bad("'" + std::string(word.substr(0, 20)) + "' is no texture coordinate");
     soup_.places.push_back({static_cast<float>(u), static_cast<float>(v)});
     return Ok();
@@ -97,20 +93,18 @@ class Reader {
     std::array<double, 3> n{};
     for (double& value : n) {
       const std::string_view word = NextWord(&line);
-      if (!ReadNumber(word, &value)) return Bad("'" + std::string(word.substr(0, 20)) + "' is no part of a normal");
+      if (!ReadFinite(word, &value)) return Bad("'" + std::string(word.substr(0, 20)) + "' is no part of a normal");
     }
-    soup_.normals.push_back(
-        Normalized(Vec3{static_cast<float>(n[0]), static_cast<float>(n[1]), static_cast<float>(n[2])}));
+    soup_.normals.push_back(UnitNormal(n[0], n[1], n[2]));
     return Ok();
   }
 
   // A number of a face's corner, from 1 on, or counted back from the last.
   static bool ReadIndex(std::string_view word, size_t known, uint32_t* index) {
     int64_t value = 0;
-    const auto [end, problem] = std::from_chars(word.data(), word.data() + word.size(), value);
+    if (!ReadNumber(word, &value)) return false;
     if (value < 0) value += static_cast<int64_t>(known) + 1;
-    if (problem != std::errc() || end != word.data() + word.size() || value < 1 || value > static_cast<int64_t>(known))
-      return false;
+    if (value < 1 || value > static_cast<int64_t>(known)) return false;
     *index = static_cast<uint32_t>(value - 1);
     return true;
   }

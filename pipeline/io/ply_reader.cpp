@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <array>
 #include <bit>
-#include <charconv>
 #include <cmath>
 #include <limits>
 #include <string_view>
@@ -13,7 +12,6 @@
 #include "pipeline/io/polygon_soup.h"
 #include "pipeline/io/scene_reader.h"
 #include "runtime/base/file.h"
-#include "runtime/base/srgb.h"
 #include "runtime/base/text.h"
 
 namespace flaneur {
@@ -71,10 +69,10 @@ class Numbers {
     const std::string_view word = rest_.substr(0, rest_.find_first_of(" \t\r\n"));
     rest_.remove_prefix(word.size());
     double value = 0;
-    const auto [end, problem] = std::from_chars(word.data(), word.data() + word.size(), value);
+    const bool read = ReadNumber(word, &value);
     const bool fits = std::is_same_v<T, double> || (value >= static_cast<double>(std::numeric_limits<T>::lowest()) &&
                                                     value <= static_cast<double>(std::numeric_limits<T>::max()));
-    if (word.empty() || problem != std::errc() || end != word.data() + word.size() || !fits) ended_ = true;
+    if (!read || !fits) ended_ = true;
     return ended_ ? T{} : static_cast<T>(value);
   }
 
@@ -127,10 +125,6 @@ void ForEach(const PlyProperty& property, Numbers* numbers, Use use) {
     if (numbers->ended()) return;
     use(value);
   }
-}
-
-Vec3 ToVec3(double x, double y, double z) {
-  return {static_cast<float>(x), static_cast<float>(y), static_cast<float>(z)};
 }
 
 class Reader {
@@ -187,13 +181,11 @@ class Reader {
     if (!(has[kX] && has[kY] && has[kZ])) return Fail("has no x, y and z");
     if (!(std::isfinite(v[kX]) && std::isfinite(v[kY]) && std::isfinite(v[kZ]))) return Fail("is not finite");
     soup_.points.push_back({v[kX], v[kY], v[kZ]});
-    if (has[kNx] && has[kNy] && has[kNz]) soup_.normals.push_back(Normalized(ToVec3(v[kNx], v[kNy], v[kNz])));
+    if (has[kNx] && has[kNy] && has[kNz]) soup_.normals.push_back(UnitNormal(v[kNx], v[kNy], v[kNz]));
     if (has[kU] && has[kV]) soup_.places.push_back({static_cast<float>(v[kU]), static_cast<float>(v[kV])});
     // Scans have both, and the picture is the finer of them.
-    if (has[kRed] && has[kGreen] && has[kBlue] && header_.pictures.empty()) {
-      const auto linear = [&](Slot s) { return LinearFromSrgb(static_cast<float>(std::clamp(v[s], 0.0, 1.0))); };
-      soup_.colors.push_back({linear(kRed), linear(kGreen), linear(kBlue), 1});
-    }
+    if (has[kRed] && has[kGreen] && has[kBlue] && header_.pictures.empty())
+      soup_.colors.push_back(ColorOfPoint(v[kRed], v[kGreen], v[kBlue]));
     return Ok();
   }
 
@@ -233,7 +225,7 @@ class Reader {
     for (const std::string& name : header_.pictures) {
       Image image;
       FaceLook& look = looks.emplace_back();
-      look.has_picture = ReadImageFile(BesideObj(path_.parent_path(), name), &image);
+      look.has_picture = ReadImageFile(BesideModel(path_.parent_path(), name), &image);
       if (look.has_picture) {
         image.name = name;
         look.material = builder->AddMaterial(WhiteMaterial(), &image);

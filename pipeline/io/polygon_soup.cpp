@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "runtime/base/srgb.h"
+
 namespace flaneur {
 namespace {
 
@@ -83,6 +85,15 @@ UpAxis UpOf(const PolygonSoup& soup, UpAxis up, const std::string& file, const c
                                       : ", judging by the walls") +
                         "; the option 'up' says otherwise");
   return y_up ? UpAxis::kY : UpAxis::kZ;
+}
+
+Vec4 ColorOfPoint(double red, double green, double blue) {
+  const auto linear = [](double v) { return LinearFromSrgb(static_cast<float>(std::clamp(v, 0.0, 1.0))); };
+  return {linear(red), linear(green), linear(blue), 1};
+}
+
+Vec3 UnitNormal(double x, double y, double z) {
+  return Normalized(Vec3{static_cast<float>(x), static_cast<float>(y), static_cast<float>(z)});
 }
 
 Material WhiteMaterial() {

@@ -32,6 +32,10 @@ struct FaceLook {
 UpAxis UpOf(const PolygonSoup& soup, UpAxis up, const std::string& file, const char* format,
             std::vector<std::string>* warnings);
 
+// Of a point, linear, of shares of sRGB's colours; and a normal, or zero.
+Vec4 ColorOfPoint(double red, double green, double blue);
+Vec3 UnitNormal(double x, double y, double z);
+
 // For what has no picture, so that its colours show as they are.
 Material WhiteMaterial();
 

@@ -30,8 +30,10 @@ bool IsCityJson(const std::string& text, char first) {
          (text.find("\"CityJSON\"") != std::string::npos || text.find("\"CityObjects\"") != std::string::npos);
 }
 
-// Of formats that know which way is up.
-void StandUpAsAsked(const std::filesystem::path& path, UpAxis up, Scene* scene, std::vector<std::string>* warnings) {
+// The glTF that `path` is, or that was made of it; a format that knows which way is up.
+Error ReadUpright(const std::filesystem::path& gltf, const std::filesystem::path& path, UpAxis up, Scene* scene,
+                  std::vector<std::string>* warnings) {
+  if (Error e = ReadGltfScene(gltf, scene, warnings)) return e;
   UpAxis thin = UpAxis::kJudged;
   if (up != UpAxis::kJudged) {
     StandUp(up, scene);
@@ -40,6 +42,7 @@ void StandUpAsAsked(const std::filesystem::path& path, UpAxis up, Scene* scene, 
     warnings->push_back(path.string() + ": lies on its side, as it seems; the option 'up' (" + axis + " or -" + axis +
                         ") turns it upright");
   }
+  return Ok();
 }
 
 }  // namespace
@@ -54,9 +57,7 @@ Error ReadScene(const std::filesystem::path& path, Scene* scene, std::vector<std
     TemporaryFolder folder;
     std::filesystem::path gltf;
     if (Error e = ConvertToGltf(path, &folder, &gltf)) return e;
-    if (Error e = ReadGltfScene(gltf, scene, warnings)) return e;
-    StandUpAsAsked(path, options.up, scene, warnings);
-    return Ok();
+    return ReadUpright(gltf, path, options.up, scene, warnings);
   }
   const std::string text = Beginning(path);
   const size_t start = text.find_first_not_of(" \t\r\n");
@@ -76,9 +77,7 @@ Error ReadScene(const std::filesystem::path& path, Scene* scene, std::vector<std
   if (!named_gltf && text.rfind("glTF", 0) != 0)
     return Fail(path.string() +
                 ": no town that is known by its name or content; save it as glTF (.glb), OBJ, PLY, FBX or .blend");
-  if (Error e = ReadGltfScene(path, scene, warnings)) return e;
-  StandUpAsAsked(path, options.up, scene, warnings);
-  return Ok();
+  return ReadUpright(path, path, options.up, scene, warnings);
 }
 
 }  // namespace flaneur
