@@ -4,6 +4,7 @@
 
 #include "pipeline/core/reach.h"
 #include "pipeline/pack/tour_json.h"
+#include "runtime/base/file.h"
 
 namespace flaneur {
 namespace {
@@ -63,6 +64,15 @@ std::vector<std::string> ToolsOf(const TourAvatar& avatar) {
   std::vector<std::string> clips;
   for (const Prop& prop : avatar.props) clips.push_back(prop.clip);
   return clips;
+}
+
+// As it stands on the disk.
+Error CheckPlayerTakes(const std::filesystem::path& path) {
+  FileBytes bytes;
+  if (Error e = ReadFile(path, &bytes)) return e;
+  TourPack pack;
+  const Error refused = PackFile().Open(std::move(bytes), path.filename().string(), &pack);
+  return refused ? Fail("a pack that the player refuses came of this tour: " + refused.message) : Ok();
 }
 
 }  // namespace
@@ -130,7 +140,8 @@ Error WriteTourPack(const std::filesystem::path& path, const TourParts& parts, T
   for (const auto& sound : parts.sounds) indices.sounds.push_back(builder.AddBufferView(sound));
   for (const auto& picture : parts.pictures) indices.pictures.push_back(builder.AddBufferView(picture));
   builder.SetRootExtension(kTourExtension, TourJson(parts, indices));
-  return builder.Write(path, bytes);
+  if (Error e = builder.Write(path, bytes)) return e;
+  return CheckPlayerTakes(path);
 }
 
 }  // namespace flaneur

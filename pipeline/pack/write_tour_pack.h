@@ -82,7 +82,8 @@ TourAvatar WithoutBulk(const TourAvatar& avatar);
 // the same bytes. Errors: meshes that do not fit into a glTF file (names them).
 Error BuildModels(const TourParts& parts, TourModels* models);
 
-// `parts` may be without the town, and its avatars WithoutBulk. Errors: as for WriteFile.
+// `parts` may be without the town, and its avatars WithoutBulk. Errors: as for WriteFile; a pack that the player would
+// refuse, as of more than runtime/base/limits.h allows (says of what), stands there then all the same.
 Error WriteTourPack(const std::filesystem::path& path, const TourParts& parts, TourModels models, size_t* bytes);
 
 }  // namespace flaneur

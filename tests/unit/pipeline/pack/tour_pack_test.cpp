@@ -29,6 +29,20 @@ TourPack Read(const std::vector<uint8_t>& bytes, const LoadOptions& options = {}
 
 TEST(TourPack, TheSamePartsGiveTheSameBytes) { EXPECT_EQ(Written(SmallTour()), Written(SmallTour())); }
 
+// A visitor would see nothing of it, and the bake would have said that all is well.
+TEST(TourPack, OneThatThePlayerRefusesIsNoResult) {
+  TourParts parts = SmallTour();
+  parts.avatars[0].share = 0;
+  TemporaryFolder folder;
+  ASSERT_FALSE(folder.Create("flaneur_test_"));
+  size_t size = 0;
+  const std::string message = WriteWhole(folder.path() / "small.glb", parts, &size).message;
+  EXPECT_NE(message.find("the player refuses"), std::string::npos) << message;
+  EXPECT_NE(message.find("small.glb: "), std::string::npos) << message;
+  EXPECT_NE(message.find("share"), std::string::npos) << message;
+  EXPECT_EQ(message.find(folder.path().string()), std::string::npos) << "a temporary folder's name helps nobody";
+}
+
 TEST(TourPack, BringsTheTourAcross) {
   const TourPack pack = Read(Written(SmallTour()));
   EXPECT_EQ(pack.name, "small");
