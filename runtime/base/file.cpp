@@ -93,9 +93,19 @@ struct Target {
   bool as_it_is = false;  // a terminal, device or pipe: nothing takes its place
 };
 
-bool IsOfTheSystem(const fs::path& path) {
-  const std::string text = path.string();
-  return text.rfind("/dev/", 0) == 0 || text.rfind("/proc/", 0) == 0;
+fs::path FolderOf(const fs::path& path) { return path.has_parent_path() ? path.parent_path() : fs::path("."); }
+
+// Of a process's open file, as /dev/stdout is behind its links, the name in /proc; empty: none.
+fs::path OpenFileOf(fs::path path) {
+  constexpr int kMostLinks = 40;  // as the system's own
+  std::error_code ec;
+  for (int i = 0; i < kMostLinks && fs::is_symlink(path, ec); ++i) {
+    const fs::path folder = fs::canonical(FolderOf(path), ec);
+    if (ec) break;
+    if (folder.string().rfind("/proc/", 0) == 0) return folder / path.filename();
+    path = folder / fs::read_symlink(path, ec);
+  }
+  return {};
 }
 
 Error FindTarget(const fs::path& path, Target* target) {
@@ -106,7 +116,7 @@ Error FindTarget(const fs::path& path, Target* target) {
   if (S_ISBLK(is.st_mode) || S_ISSOCK(is.st_mode))
     return Fail(path.string() + ": is a device or socket; name a file to write");
   std::error_code ec;
-  target->as_it_is = !S_ISREG(is.st_mode) || IsOfTheSystem(fs::absolute(path, ec));
+  target->as_it_is = !S_ISREG(is.st_mode) || !OpenFileOf(path).empty();
   if (target->as_it_is) return Ok();
   if (const fs::path real = fs::canonical(path, ec); !ec && fs::is_symlink(path, ec)) target->path = real;
   return Ok();
@@ -124,8 +134,12 @@ class NoSignalOfPipes {
   void (*before_)(int);
 };
 
-// Without waiting for a reader of a pipe who may never come.
+// One of our own stays where it has come to: what is printed after it neither overwrites it nor is overwritten.
+// A pipe is opened without waiting for a reader who may never come.
 int OpenAsItIs(const fs::path& path) {
+  const fs::path open_file = OpenFileOf(path);
+  if (open_file.parent_path() == "/proc/" + std::to_string(::getpid()) + "/fd")
+    return ::fcntl(std::atoi(open_file.filename().c_str()), F_DUPFD_CLOEXEC, 0);
   const int fd = ::open(path.c_str(), O_WRONLY | O_APPEND | O_CLOEXEC | O_NOCTTY | O_NONBLOCK);
   if (fd >= 0) ::fcntl(fd, F_SETFL, O_APPEND);
   return fd;
@@ -159,8 +173,6 @@ bool UnderNewName(const fs::path& target, fs::path* name, auto make) {
   }
   return false;
 }
-
-fs::path FolderOf(const fs::path& path) { return path.has_parent_path() ? path.parent_path() : fs::path("."); }
 
 // So that the name outlives a power cut too.
 void SyncFolder(const fs::path& folder) {

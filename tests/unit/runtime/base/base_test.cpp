@@ -48,6 +48,39 @@ TEST(File, ComesBackAsWritten) {
   EXPECT_EQ(FilesIn(path.parent_path()), 1u);
 }
 
+// The shared memory beside the devices is a folder like any other: what stands there is replaced, not added to.
+TEST(File, AFileBesideTheDevicesIsReplaced) {
+  const fs::path memory = "/dev/shm/flaneur_base_" + std::to_string(::getpid());
+  std::error_code ec;
+  fs::create_directories(memory, ec);
+  if (ec) GTEST_SKIP() << "no /dev/shm here";
+  const fs::path path = memory / "a.bin", link = memory / "b.bin";
+  fs::create_symlink(path, link);
+  for (const fs::path& name : {path, path, link}) EXPECT_EQ(WriteTextFile(name, "once").message, "");
+  std::string text;
+  EXPECT_EQ(ReadTextFile(path, &text).message, "");
+  EXPECT_EQ(text, "once");
+  EXPECT_TRUE(fs::is_symlink(link));
+  fs::remove_all(memory);
+}
+
+// As with `-o /dev/stdout > a.txt`: what the shell and others wrote there stays.
+TEST(File, AnOpenFileIsAddedTo) {
+  TemporaryFolder folder;
+  const fs::path path = folder.path() / "a.txt", link = folder.path() / "b.txt";
+  const int fd = ::open(path.c_str(), O_WRONLY | O_CREAT, 0644);
+  ASSERT_GE(fd, 0);
+  ASSERT_EQ(::write(fd, "before ", 7), 7);
+  fs::create_symlink("/dev/fd/" + std::to_string(fd), link);
+  for (const std::string& name : {"/proc/self/fd/" + std::to_string(fd), "/dev/fd/" + std::to_string(fd), link.string()})
+    EXPECT_EQ(WriteTextFile(name, "and ").message, "") << name;
+  ASSERT_EQ(::write(fd, "after", 5), 5);
+  ::close(fd);
+  std::string text;
+  EXPECT_EQ(ReadTextFile(path, &text).message, "");
+  EXPECT_EQ(text, "before and and and after");
+}
+
 TEST(File, ComesBackIntoRoomThatNobodyHasWritten) {
   TemporaryFolder folder;
   const fs::path path = folder.path() / "a.bin";
