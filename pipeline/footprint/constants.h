@@ -64,7 +64,8 @@ inline constexpr double kMaxMouthShare = 0.2;       // of a room's outline
 inline constexpr double kMinRoomToMouth = 1.1;      // a room is so many times as wide as its mouth
 inline constexpr size_t kMaxWallEnds = 40;  // of walls that lead nowhere; with more nobody knows which belong together
 inline constexpr double kOnWall_m = 0.01;   // a mouth whose middle is this near to a room's outline is its own
-inline constexpr double kSameCorner_m = 0.001;  // corners this near are one
+inline constexpr double kSameCorner_m = 0.001;  // corners this near are one,
+inline constexpr double kTornCorner_m = 0.005;  // where a surface ends at both, also those
 // Thinner triangles close nothing; corners this near in plan stand over each other.
 inline constexpr double kThinTriangle_m = 0.02;
 inline constexpr double kFoot_m = 0.3;              // how far a wall's foot may go up and down

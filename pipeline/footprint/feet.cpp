@@ -49,7 +49,7 @@ std::optional<LevelFeet> LevelFeetOf(const std::vector<const TownObject*>& house
   double lowest = std::numeric_limits<double>::max();
   for (const Point3& p : shell.points) lowest = std::min(lowest, p.z);
   std::vector<Segment> feet, others;
-  for (const auto& [edge, _] : FindBorderEdges(shell)) {
+  for (const auto& [edge, _] : shell.borders) {
     const Point3 &a = shell.points[edge.first], &b = shell.points[edge.second];
     (std::max(a.z, b.z) <= lowest + kLevelGround_m ? feet : others).push_back(InPlan(a, b));
   }
@@ -100,7 +100,7 @@ std::vector<Point3> LevelLoop(const WeldedShell& shell, const Borders& borders, 
 // The floor that a house on several levels would have where its shell is open on a level.
 std::vector<Triangle3> FloorOfHoles(const TownObject& house) {
   const WeldedShell shell = Weld(house.triangles);
-  const Borders borders = ToBorders(FindBorderEdges(shell));
+  const Borders borders = ToBorders(shell.borders);
   std::vector<Triangle3> all = house.triangles;
   std::set<CornerIndex> done;
   for (const auto& [start, _] : borders) {

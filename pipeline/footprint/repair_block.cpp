@@ -48,8 +48,7 @@ class BlockRepair {
       if (houses[k]->foundation_is_given) Add(houses[k]->foundation, {k, true});
     }
     shell_ = Weld(all_);
-    edges_ = FindBorderEdges(shell_);
-    borders_ = ToBorders(edges_);
+    borders_ = ToBorders(shell_.borders);
   }
 
   std::vector<MissingTriangle> Run() {
@@ -178,7 +177,7 @@ class BlockRepair {
     for (size_t i = 0; i < loop.size(); ++i) {
       const CornerIndex a = loop[i], b = loop[(i + 1) % loop.size()];
       if (std::find(t.begin(), t.end(), a) == t.end() || std::find(t.begin(), t.end(), b) == t.end()) continue;
-      visit(shell_.source[TriangleAt(edges_, a, b)], Segment3{shell_.points[a], shell_.points[b]});
+      visit(shell_.source[TriangleAt(shell_.borders, a, b)], Segment3{shell_.points[a], shell_.points[b]});
     }
   }
 
@@ -214,7 +213,6 @@ class BlockRepair {
   std::vector<Triangle3> all_;
   std::vector<Origin> origin_;  // of each
   WeldedShell shell_;
-  std::vector<BorderEdge> edges_;
   Borders borders_;
   std::vector<std::optional<Overhead>> overhead_;
   std::vector<MissingTriangle> out_;

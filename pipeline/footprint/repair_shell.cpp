@@ -13,8 +13,7 @@ namespace {
 
 class Repair {
  public:
-  explicit Repair(WeldedShell shell)
-      : shell_(std::move(shell)), edges_(FindBorderEdges(shell_)), borders_(ToBorders(edges_)) {}
+  explicit Repair(WeldedShell shell) : shell_(std::move(shell)), borders_(ToBorders(shell_.borders)) {}
 
   MissingFromShell Run() {
     FillTriangles();
@@ -107,13 +106,12 @@ class Repair {
 
   bool IsOfFace(const Corners& c) const {
     const auto goes_on = [&](CornerIndex a, CornerIndex b) {
-      return GoesOnIn(ToTriangle(c), ToTriangle(shell_.triangles[TriangleAt(edges_, a, b)]));
+      return GoesOnIn(ToTriangle(c), ToTriangle(shell_.triangles[TriangleAt(shell_.borders, a, b)]));
     };
     return goes_on(c[0], c[1]) || goes_on(c[1], c[2]) || goes_on(c[0], c[2]);
   }
 
   WeldedShell shell_;
-  std::vector<BorderEdge> edges_;
   Borders borders_;
   MissingFromShell out_;
 };

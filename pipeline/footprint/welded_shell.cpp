@@ -2,7 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <numeric>
 #include <tuple>
+#include <unordered_map>
 
 #include "pipeline/footprint/constants.h"
 
@@ -17,16 +20,27 @@ double Along(const Point3& direction, const Point3& o, const Point3& p) {
   return (x * (p.x - o.x) + y * (p.y - o.y) + z * (p.z - o.z)) / std::hypot(x, y, z);
 }
 
+using Cell = std::array<int64_t, 3>;
+
+struct HashOfCell {
+  size_t operator()(const Cell& c) const {
+    size_t hash = 0;
+    for (const int64_t v : c) hash = (hash ^ static_cast<size_t>(v)) * 0x9e3779b97f4a7c15u, hash ^= hash >> 32;
+    return hash;
+  }
+};
+
+Cell CellOf(const Point3& p, double cell_m) {
+  const auto cell = [cell_m](double v) { return static_cast<int64_t>(std::llround(v / cell_m)); };
+  return {cell(p.x), cell(p.y), cell(p.z)};
+}
+
 // The point of each corner of all triangles, one after the other.
 std::vector<CornerIndex> WeldCorners(const std::vector<Triangle3>& shell, std::vector<Point3>* points) {
-  using Cell = std::array<int64_t, 3>;
   std::vector<std::pair<Cell, CornerIndex>> corners;
   corners.reserve(3 * shell.size());
   for (const Triangle3& t : shell) {
-    for (const Point3& p : t) {
-      const auto cell = [](double v) { return static_cast<int64_t>(std::llround(v / kSameCorner_m)); };
-      corners.emplace_back(Cell{cell(p.x), cell(p.y), cell(p.z)}, static_cast<CornerIndex>(corners.size()));
-    }
+    for (const Point3& p : t) corners.emplace_back(CellOf(p, kSameCorner_m), static_cast<CornerIndex>(corners.size()));
   }
   std::sort(corners.begin(), corners.end());
   std::vector<CornerIndex> point_of(corners.size());
@@ -40,24 +54,21 @@ std::vector<CornerIndex> WeldCorners(const std::vector<Triangle3>& shell, std::v
   return point_of;
 }
 
-}  // namespace
-
-WeldedShell Weld(const std::vector<Triangle3>& shell) {
-  WeldedShell out;
-  const std::vector<CornerIndex> point_of = WeldCorners(shell, &out.points);
+// Each once; those that are a line or a point vanish.
+void SetTriangles(const std::vector<CornerIndex>& point_of, WeldedShell* shell) {
   std::vector<std::pair<Corners, size_t>> triangles;
-  for (size_t i = 0; i < shell.size(); ++i) {
+  for (size_t i = 0; 3 * i < point_of.size(); ++i) {
     Corners t{point_of[3 * i], point_of[3 * i + 1], point_of[3 * i + 2]};
     std::sort(t.begin(), t.end());
     if (t[0] != t[1] && t[1] != t[2]) triangles.emplace_back(t, i);
   }
   std::sort(triangles.begin(), triangles.end());
+  shell->triangles.clear(), shell->source.clear();
   for (const auto& [corners, i] : triangles) {
-    if (!out.triangles.empty() && out.triangles.back() == corners) continue;
-    out.triangles.push_back(corners);
-    out.source.push_back(i);
+    if (!shell->triangles.empty() && shell->triangles.back() == corners) continue;
+    shell->triangles.push_back(corners);
+    shell->source.push_back(i);
   }
-  return out;
 }
 
 std::vector<BorderEdge> FindBorderEdges(const WeldedShell& shell) {
@@ -76,6 +87,75 @@ std::vector<BorderEdge> FindBorderEdges(const WeldedShell& shell) {
     if (next == i + 1) borders.push_back(edges[i]);
   }
   return borders;
+}
+
+// Points in the cells of a grid, so wide that few have neighbours in more than one.
+class PointGrid {
+ public:
+  explicit PointGrid(const std::vector<Point3>& points) : points_(points), next_(points.size(), kNone) {}
+
+  void Add(CornerIndex i) {
+    const auto [head, is_new] = heads_.try_emplace(CellOf(points_[i]), i);
+    if (!is_new) next_[i] = head->second, head->second = i;
+  }
+  // The nearest that was added, if it is nearer than most_m, else p itself.
+  CornerIndex NearestTo(CornerIndex p, double most_m) const {
+    const Point3& at = points_[p];
+    const Cell low = CellOf({at.x - most_m, at.y - most_m, at.z - most_m});
+    const Cell high = CellOf({at.x + most_m, at.y + most_m, at.z + most_m});
+    CornerIndex nearest = p;
+    for (int64_t x = low[0]; x <= high[0]; ++x)
+      for (int64_t y = low[1]; y <= high[1]; ++y)
+        for (int64_t z = low[2]; z <= high[2]; ++z) {
+          const auto head = heads_.find({x, y, z});
+          for (CornerIndex i = head == heads_.end() ? kNone : head->second; i != kNone; i = next_[i]) {
+            const double distance_m = Distance(at, points_[i]);
+            if (distance_m < most_m) nearest = i, most_m = distance_m;
+          }
+        }
+    return nearest;
+  }
+
+ private:
+  static constexpr CornerIndex kNone = std::numeric_limits<CornerIndex>::max();
+  static Cell CellOf(const Point3& p) { return flaneur::CellOf(p, 4 * kTornCorner_m); }
+
+  const std::vector<Point3>& points_;
+  std::unordered_map<Cell, CornerIndex, HashOfCell> heads_;  // of chains
+  std::vector<CornerIndex> next_;
+};
+
+// Of each point the one that it is one with: of those on borders the first nearby. No chains of them, so that a fine
+// mesh is not drawn together.
+std::vector<CornerIndex> JoinTorn(const WeldedShell& shell) {
+  std::vector<CornerIndex> torn, joined(shell.points.size());
+  std::iota(joined.begin(), joined.end(), CornerIndex{0});
+  for (const BorderEdge& border : shell.borders) torn.insert(torn.end(), {border.edge.first, border.edge.second});
+  std::sort(torn.begin(), torn.end());
+  torn.erase(std::unique(torn.begin(), torn.end()), torn.end());
+  PointGrid kept(shell.points);
+  for (const CornerIndex i : torn) {
+    joined[i] = kept.NearestTo(i, kTornCorner_m);
+    if (joined[i] == i) kept.Add(i);
+  }
+  return joined;
+}
+
+}  // namespace
+
+WeldedShell Weld(const std::vector<Triangle3>& shell) {
+  WeldedShell out;
+  std::vector<CornerIndex> point_of = WeldCorners(shell, &out.points);
+  SetTriangles(point_of, &out);
+  out.borders = FindBorderEdges(out);
+  if (out.borders.empty()) return out;
+  const std::vector<CornerIndex> joined = JoinTorn(out);
+  bool any = false;
+  for (CornerIndex& point : point_of) any |= joined[point] != point, point = joined[point];
+  if (!any) return out;
+  SetTriangles(point_of, &out);
+  out.borders = FindBorderEdges(out);
+  return out;
 }
 
 size_t TriangleAt(const std::vector<BorderEdge>& edges, CornerIndex a, CornerIndex b) {

@@ -15,22 +15,25 @@ using CornerIndex = uint32_t;
 using Corners = std::array<CornerIndex, 3>;              // ascending
 using CornerEdge = std::pair<CornerIndex, CornerIndex>;  // the lesser first
 
-struct WeldedShell {
-  std::vector<Point3> points;
-  std::vector<Corners> triangles;  // sorted, each once
-  std::vector<size_t> source;      // of each the first of the given triangles
-};
-
-// Vertices count as the same when they agree to a millimetre; repeated and turned triangles do not matter.
-WeldedShell Weld(const std::vector<Triangle3>& shell);
-
-// Neighbours of each point along edges that belong to one triangle only.
-using Borders = std::map<CornerIndex, std::set<CornerIndex>>;
+// That belongs to one triangle only.
 struct BorderEdge {
   CornerEdge edge;
   size_t triangle;  // of the shell's
 };
-std::vector<BorderEdge> FindBorderEdges(const WeldedShell& shell);                      // by edge
+
+struct WeldedShell {
+  std::vector<Point3> points;       // not all of them belong to a triangle
+  std::vector<Corners> triangles;   // sorted, each once
+  std::vector<size_t> source;       // of each the first of the given triangles
+  std::vector<BorderEdge> borders;  // by edge
+};
+
+// Vertices count as the same when they agree to a millimetre, and to five where the surface is torn between
+// them, as where each wall has corners of its own; repeated and turned triangles do not matter.
+WeldedShell Weld(const std::vector<Triangle3>& shell);
+
+// Neighbours of each point along edges that belong to one triangle only.
+using Borders = std::map<CornerIndex, std::set<CornerIndex>>;
 size_t TriangleAt(const std::vector<BorderEdge>& edges, CornerIndex a, CornerIndex b);  // a border must be there
 Borders ToBorders(const std::vector<BorderEdge>& edges);
 void RemoveBorder(CornerIndex a, CornerIndex b, Borders* borders);

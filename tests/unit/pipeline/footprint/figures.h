@@ -40,8 +40,8 @@ inline Error ReadFolder(const std::filesystem::path& folder, std::vector<Scene>*
 
 struct Spoiling {
   const char* name;
-  bool flip = false, repeat = false, jitter = false, jitter_apart = false, eaves = false, no_ground = false,
-       drop = false;
+  bool flip = false, repeat = false, jitter = false, eaves = false, no_ground = false, drop = false;
+  float apart_m = 0;  // each corner of each triangle by so much at most
 };
 
 template <typename Function>
@@ -60,9 +60,9 @@ inline void Unweld(Mesh* mesh) {
   *mesh = std::move(out);
 }
 
-inline void Jitter(bool apart, std::mt19937* random, std::map<std::tuple<float, float, float>, Vec3>* moves,
+inline void Jitter(float most_m, bool apart, std::mt19937* random, std::map<std::tuple<float, float, float>, Vec3>* moves,
                    Mesh* mesh) {
-  const auto step = [&] { return static_cast<float>((*random)() % 2001) * 1e-5f - 0.01f; };
+  const auto step = [&] { return most_m * (static_cast<float>((*random)() % 2001) * 1e-3f - 1); };
   for (Vec3& p : mesh->positions) {
     Vec3 move{step(), step(), step()};
     if (!apart) move = moves->try_emplace({p.x, p.y, p.z}, move).first->second;
@@ -136,7 +136,8 @@ inline Scene Spoilt(const Scene& clean, const Spoiling& how) {
   std::map<std::tuple<float, float, float>, Vec3> moves;
   for (Mesh& mesh : scene.meshes) {
     Unweld(&mesh);
-    if (how.jitter || how.jitter_apart) Jitter(how.jitter_apart, &random, &moves, &mesh);
+    if (how.jitter) Jitter(0.01f, false, &random, &moves, &mesh);
+    if (how.apart_m > 0) Jitter(how.apart_m, true, &random, &moves, &mesh);
     if (how.flip)
       ForCorners(&mesh, [&](uint32_t* t) {
         if (random() % 2) std::swap(t[1], t[2]);

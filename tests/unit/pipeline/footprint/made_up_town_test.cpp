@@ -88,6 +88,17 @@ std::vector<figures::BuildingFit> FitsOf(const Scene& clean, const Scene& town) 
   return figures::Fits(clean, footprints, stats);
 }
 
+// As where a program wrote each face for itself: nothing is torn, nothing is lost, and yards stay open.
+TEST(MadeUpTowns, FacesWithCornersOfTheirOwnAreWhole) {
+  const Scene town = ToScene(made_up::Build(kYardsOfHouses, 12, 303), Tags::kCityModel);
+  for (const float apart_m : {0.001f, 0.0015f}) {
+    for (const figures::BuildingFit& fit : FitsOf(town, figures::Spoilt(town, {.name = "", .apart_m = apart_m}))) {
+      EXPECT_GT(fit.iou, 0.99) << fit.name;
+      EXPECT_FALSE(fit.flagged) << fit.name;
+    }
+  }
+}
+
 // One house's strip may run all round another.
 TEST(MadeUpTowns, WallsRoundABlockSwallowNobody) {
   const Scene town = ToScene(made_up::Build(kYardsOfOne, 12, 31), Tags::kCityModel);
