@@ -9,7 +9,7 @@ namespace {
 
 using Feature = std::pair<std::string_view, CityFeature>;
 constexpr auto kNoGround = GroundKind::kNone;
-constexpr std::array<Feature, 36> kFeatures{{
+constexpr std::array<Feature, 37> kFeatures{{
     {"Building", {NodeKind::kBuilding, kNoGround, false}},
     {"BuildingPart", {NodeKind::kBuilding, kNoGround, true}},
     {"BuildingInstallation", {NodeKind::kBuilding, kNoGround, true}},
@@ -45,11 +45,12 @@ constexpr std::array<Feature, 36> kFeatures{{
     {"CityObjectGroup", {NodeKind::kNone, kNoGround, false}},
     {"BuildingUnit", {NodeKind::kNone, kNoGround, true}},
     {"BuildingStorey", {NodeKind::kNone, kNoGround, true}},
+    {"Storey", {NodeKind::kNone, kNoGround, true}},
     {"TunnelConstructiveElement", {NodeKind::kNone, kNoGround, true}},
 }};
 
 using Surface = std::pair<std::string_view, CitySurface>;
-constexpr std::array<Surface, 14> kSurfaces{{
+constexpr std::array<Surface, 19> kSurfaces{{
     {"WallSurface", {SurfaceKind::kWall, false, false}},
     {"RoofSurface", {SurfaceKind::kRoof, false, false}},
     {"GroundSurface", {SurfaceKind::kGround, false, true}},
@@ -61,9 +62,14 @@ constexpr std::array<Surface, 14> kSurfaces{{
     {"CeilingSurface", {SurfaceKind::kOther, true, false}},
     {"Window", {SurfaceKind::kOther, false, false}},
     {"Door", {SurfaceKind::kOther, false, false}},
+    {"WindowSurface", {SurfaceKind::kOther, false, false}},
+    {"DoorSurface", {SurfaceKind::kOther, false, false}},
     {"WaterSurface", {SurfaceKind::kOther, false, false}},
     {"TrafficArea", {SurfaceKind::kGround, false, false}},
     {"AuxiliaryTrafficArea", {SurfaceKind::kGround, false, false}},
+    {"TrafficSpace", {SurfaceKind::kOther, true, false}},  // the air over it
+    {"AuxiliaryTrafficSpace", {SurfaceKind::kOther, true, false}},
+    {"ClearanceSpace", {SurfaceKind::kOther, true, false}},
 }};
 
 template <typename Table>

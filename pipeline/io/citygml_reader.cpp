@@ -1,7 +1,9 @@
 #include <expat.h>
+#include <iconv.h>
 
 #include <algorithm>
 #include <array>
+#include <cerrno>
 #include <charconv>
 #include <cmath>
 #include <memory>
@@ -9,6 +11,7 @@
 #include <optional>
 #include <unordered_map>
 
+#include "pipeline/core/obj_files.h"
 #include "pipeline/io/city_objects.h"
 #include "pipeline/io/citygml_appearance.h"
 #include "pipeline/io/scene_reader.h"
@@ -76,8 +79,30 @@ bool IsPolygon(std::string_view name) {
   return name == "Polygon" || name == "PolygonPatch" || name == "Triangle" || name == "Rectangle";
 }
 
+// What it holds says what the object is.
+bool IsWord(std::string_view name) { return name == "function" || name == "relationToConstruction"; }
+
 bool HoldsCoordinates(std::string_view name) {
   return name == "posList" || name == "pos" || name == "coordinates" || name == "transformationMatrix";
+}
+
+// Of encodings that expat does not know those with a character for each byte, as windows-1250 and its kin.
+int MapEncoding(void*, const char* name, XML_Encoding* encoding) {
+  const iconv_t converter = ::iconv_open("UTF-32LE", name);
+  if (converter == reinterpret_cast<iconv_t>(-1)) return XML_STATUS_ERROR;
+  bool single = true;
+  for (int byte = 0; byte < 256; ++byte) {
+    char in = static_cast<char>(byte);
+    uint32_t out = 0;
+    char *from = &in, *to = reinterpret_cast<char*>(&out);
+    size_t from_left = 1, to_left = sizeof out;
+    const bool known = ::iconv(converter, &from, &from_left, &to, &to_left) != static_cast<size_t>(-1);
+    if (!known && errno == EINVAL) single = false;  // a character's first byte
+    ::iconv(converter, nullptr, nullptr, nullptr, nullptr);
+    encoding->map[byte] = known ? static_cast<int>(out) : -1;
+  }
+  ::iconv_close(converter);
+  return single ? XML_STATUS_OK : XML_STATUS_ERROR;
 }
 
 class Reader {
@@ -105,6 +130,7 @@ class Reader {
     XML_SetUserData(parser_.get(), this);
     XML_SetElementHandler(parser_.get(), &Reader::OnStart, &Reader::OnEnd);
     XML_SetStartDoctypeDeclHandler(parser_.get(), &Reader::OnDoctype);
+    XML_SetUnknownEncodingHandler(parser_.get(), &MapEncoding, nullptr);
     for (bool last = false; !last;) {
       void* buffer = XML_GetBuffer(parser_.get(), static_cast<int>(kChunk_bytes));
       if (!buffer) return Fail(path_.string() + ": out of memory");
@@ -199,9 +225,9 @@ class Reader {
                              "xmlns=\"http://www.opengis.net/citygml/2.0\")");
       return;
     }
-    for (const char* version : {"/1.0", "/2.0"})
+    for (const char* version : {"/1.0", "/2.0", "/3.0"})
       if (full_name.find(std::string("opengis.net/citygml") + version) != std::string_view::npos) return;
-    Stop("CityGML 1.0 and 2.0 are understood, not '" +
+    Stop("CityGML 1.0 to 3.0 are understood, not '" +
          std::string(full_name.substr(0, full_name.size() - name.size() - 1)) + "'; convert it");
   }
 
@@ -215,7 +241,7 @@ class Reader {
     else if (const std::optional<int> lod = LodOf(e->name)) e->lod = *lod;
     if (!reference.empty() && e->lod > 0 && e->object >= 0 && reference[0] == '#')
       references_.push_back({e->object, e->feature, e->lod, reference.substr(1)});
-    if (e->name == "function" && e->object >= 0) Collect(true), text_.clear();
+    if (IsWord(e->name) && e->object >= 0) Collect(true), text_.clear();
     if (!HoldsCoordinates(e->name)) return;
     Collect(in_polygon_ || implicit_);
     text_.clear();
@@ -256,8 +282,8 @@ class Reader {
       ring_ids_.back() = e.id;
     }
     appearances_.Leave(e.name, collects_ ? text_ : std::string());
-    if (collects_ && !in_polygon_ && !implicit_ && e.name != "function") Collect(false);
-    if (collects_ && e.name == "function") TakeFunction(e);
+    if (collects_ && !in_polygon_ && !implicit_ && !IsWord(e.name)) Collect(false);
+    if (collects_ && IsWord(e.name)) TakeWord(e);
     else if (collects_ && HoldsCoordinates(e.name)) TakeCoordinates(e);
     else if (IsPolygon(e.name) && in_polygon_) Store(e);
     else if (e.name == "ImplicitGeometry" && implicit_) EndImplicit(e);
@@ -265,11 +291,13 @@ class Reader {
       ranges_[e.id] = {e.first_polygon, polygons_.size()};
   }
 
-  void TakeFunction(const Element& e) {
+  void TakeWord(const Element& e) {
     Collect(false);
-    const size_t start = text_.find_first_not_of(" \t\r\n");
-    if (start != std::string::npos && IsBridgeFunction(std::string_view(text_).substr(start)))
-      At(objects_, e.object).feature.is_bridge = true;
+    const std::string_view word = Trimmed(text_);
+    if (e.name == "function" && IsBridgeFunction(word)) At(objects_, e.object).feature.is_bridge = true;
+    if (e.name == "relationToConstruction" && word == "inside" &&
+        !stack_.empty())  // an installation's, behind its faces
+      for (size_t i = stack_.back().first_polygon; i < polygons_.size(); ++i) polygons_[i].lod = 0;
   }
 
   void TakeCoordinates(const Element& e) {

@@ -1,4 +1,4 @@
-// Towns in: glTF 2.0 (.glb, .gltf), OBJ, PLY, STL, CityJSON 1.0 to 2.0, CityJSONSeq, CityGML 1.0 and 2.0; by Blender
+// Towns in: glTF 2.0 (.glb, .gltf), OBJ, PLY, STL, CityJSON 1.0 to 2.0, CityJSONSeq, CityGML 1.0 to 3.0; by Blender
 // .blend, .fbx, .dae, .x3d, .wrl, .abc and USD, as far as the installed one reads them.
 #pragma once
 #include <filesystem>

@@ -221,6 +221,29 @@ Error TownBuilder::DegreesToMetres(const CityCoordinates& coordinates, std::stri
   return Ok();
 }
 
+// Read with its axes swapped a town is its own mirror image, and its houses are inside out: their volumes are negative.
+AxisEvidence TownBuilder::AxesByFaces() const {
+  constexpr double kClearly = 0.5;  // of all that they enclose
+  std::map<int, Extent> extents;    // by node
+  for (const Triangle& t : triangles_)
+    for (const Point3& p : {t.a, t.b, t.c}) extents[t.node].Add(p);
+  std::map<int, double> volumes_m3;
+  for (const Triangle& t : triangles_) {
+    if (At(nodes_, t.node).kind != NodeKind::kBuilding) continue;
+    const Extent& extent = extents.at(t.node);  // over its base, so that none is missing where that has no faces
+    const auto from_base = [&](const Point3& p) {
+      return Point3{p.x - extent.Middle().x, p.y - extent.Middle().y, p.z - extent.min.z};
+    };
+    const Point3 a = from_base(t.a), b = from_base(t.b), c = from_base(t.c);
+    volumes_m3[t.node] +=
+        (a.x * (b.y * c.z - b.z * c.y) + a.y * (b.z * c.x - b.x * c.z) + a.z * (b.x * c.y - b.y * c.x)) / 6;
+  }
+  double sum_m3 = 0, all_m3 = 0;
+  for (const auto& [_, volume_m3] : volumes_m3) sum_m3 += volume_m3, all_m3 += std::abs(volume_m3);
+  if (!(std::abs(sum_m3) > kClearly * all_m3)) return AxisEvidence::kNone;
+  return sum_m3 > 0 ? AxisEvidence::kAsGiven : AxisEvidence::kSwapped;
+}
+
 // Maps of metres stay, but where the authority's axes are the other way round.
 Error TownBuilder::MapToMetres(const CityCoordinates& coordinates, std::string* from, std::string* to,
                                std::vector<std::string>* notes) {
@@ -238,14 +261,22 @@ Error TownBuilder::MapToMetres(const CityCoordinates& coordinates, std::string* 
     return !TransformPoints(coordinates.system, kLongitudeLatitude, &place) &&
            IsUsedAt(system, place[0], kBesideArea_deg);
   };
-  const bool swapped = !lies_there(middle) && lies_there({middle.y, middle.x});
+  const bool given = lies_there(middle), turned = lies_there({middle.y, middle.x});
+  const bool said = coordinates.axes_as_named && system.north_first;
+  const AxisEvidence evidence = given && turned ? AxesByFaces() : AxisEvidence::kNone;
+  const bool swapped = given != turned                   ? turned
+                       : evidence == AxisEvidence::kNone ? said && given
+                                                         : evidence == AxisEvidence::kSwapped;
+  if (given && turned && swapped != said)
+    notes->push_back(std::string("the first coordinate was taken for the ") + (swapped ? "northing" : "easting") +
+                     ": so the houses' faces look outwards");
   if (swapped) {
     middle = {middle.y, middle.x};
     for (Point2& p : points) std::swap(p.x, p.y);
-    if (!(coordinates.axes_as_named && system.north_first))
+    if (!given && !said)
       notes->push_back("northings stand before eastings: the coordinates lie in the area of '" + coordinates.system +
                        "' only so; they were swapped");
-  } else if (!lies_there(middle)) {
+  } else if (!given) {
     return Ok();  // said elsewhere
   }
   if (!IsMapOfMetres(coordinates.system, middle)) {

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "pipeline/core/scene.h"
+#include "pipeline/io/axis_order.h"
 #include "runtime/base/error.h"
 
 namespace flaneur {
@@ -43,10 +44,10 @@ class TownBuilder {
 
   // Degrees, and maps that are stretched, mirrored or turned, become the fitting system in metres: then
   // `source_system` (may be null) is what they were. Which axis comes first is told by the place where the system is
-  // used, by right angles, and by `coordinates` only where these are silent. Coordinates far from zero are moved by
-  // whole hundreds of metres: see Scene::origin_m. Nodes without triangles stay where something hangs on them. Errors:
-  // nothing but polygons without area, degrees in a system of metres or outside of the system's area, a coordinate
-  // beyond 100,000 km; each names `file`.
+  // used, else of degrees by right angles, of metres by houses that are not inside out, and by `coordinates` only where
+  // these are silent. Coordinates far from zero are moved by whole hundreds of metres: see Scene::origin_m. Nodes
+  // without triangles stay where something hangs on them. Errors: nothing but polygons without area, degrees in a
+  // system of metres or outside of the system's area, a coordinate beyond 100,000 km; each names `file`.
   Error Finish(const std::string& file, const CityCoordinates& coordinates, Scene* scene, std::string* source_system,
                std::vector<std::string>* warnings);
 
@@ -66,6 +67,7 @@ class TownBuilder {
   bool IsInDegrees() const;  // most nodes that wait
   Error DegreesToMetres(const CityCoordinates& coordinates, std::string* from, std::string* to,
                         std::vector<std::string>* notes);
+  AxisEvidence AxesByFaces() const;
   Error MapToMetres(const CityCoordinates& coordinates, std::string* from, std::string* to,
                     std::vector<std::string>* notes);
   Error CheckReach() const;

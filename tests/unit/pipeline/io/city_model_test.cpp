@@ -197,7 +197,7 @@ TEST_F(CityModel, XmlBombsAndOtherXmlAreRefused) {
   for (int i = 0; i < 100000; ++i) deep += "<a>";
   EXPECT_NE(Read("deep.gml", Gml(deep)).find("deep"), std::string::npos);
   EXPECT_NE(Read("page.xml", "<html></html>").find("CityModel"), std::string::npos);
-  EXPECT_NE(Read("three.gml", Gml("", "3.0")).find("3.0"), std::string::npos);
+  EXPECT_NE(Read("four.gml", Gml("", "4.0")).find("4.0"), std::string::npos);
   const std::string whole = Gml(Member(Surface("WallSurface", Polygon(kWall))));
   EXPECT_NE(Read("cut.gml", whole.substr(0, whole.size() - 40)).find("well-formed"), std::string::npos);
 }
@@ -213,6 +213,45 @@ TEST_F(CityModel, BadCityGmlIsNamed) {
             "");
   ASSERT_EQ(warnings_.size(), 1u);
   EXPECT_NE(warnings_[0].find("fewer than three corners"), std::string::npos);
+}
+
+// Its spaces hold what stands there and what only people or light go through.
+TEST_F(CityModel, CityGml3HasBoundariesAndSpaces) {
+  const auto in = [](const std::string& name, const std::string& inner) {
+    return "<" + name + ">" + inner + "</" + name.substr(0, name.find(' ')) + ">";
+  };
+  const auto lod2 = [&](const std::string& ring) {
+    return in("core:lod2MultiSurface", in("gml:MultiSurface", in("gml:surfaceMember", Polygon(ring))));
+  };
+  const auto installation = [&](const std::string& relation) {
+    return in("bldg:buildingInstallation",
+              in("bldg:BuildingInstallation", lod2(kWall) + in("con:relationToConstruction", relation)));
+  };
+  const std::string surfaces = in("core:boundary", in("con:WallSurface", lod2(kWall))) +
+                               in("core:boundary", in("con:GroundSurface gml:id=\"floor\"", lod2(kGround))) +
+                               in("bldg:buildingRoom", in("bldg:BuildingRoom", lod2(kWall)));
+  const std::string road =
+      in("core:cityObjectMember",
+         in("tran:Road",
+            in("tran:trafficSpace",
+               in("tran:TrafficSpace", lod2(kWall) + in("core:boundary", in("tran:TrafficArea", lod2(kGround)))))));
+  std::string text = Gml(Member(surfaces + installation("outside") + installation(" inside\n")) + road, "3.0");
+  text.insert(text.find(" xmlns:gml"),
+              " xmlns:con=\"http://www.opengis.net/citygml/construction/3.0\" "
+              "xmlns:tran=\"http://www.opengis.net/citygml/transportation/3.0\"");
+  ASSERT_EQ(Read("town.gml", text), "");
+  EXPECT_EQ(Triangles(false), 2 + 2 + 2) << "a wall, what is outside, the road";
+  EXPECT_EQ(Triangles(true), 2);
+  EXPECT_TRUE(warnings_.empty());
+}
+
+TEST_F(CityModel, CityGmlInCodePagesKeepsItsNames) {
+  std::string text = Gml(Member(Surface("WallSurface", Polygon(kWall)), "Dom_\xe6"));
+  text.replace(text.find("\"1.0\""), 5, "\"1.0\" encoding=\"windows-1250\"");
+  ASSERT_EQ(Read("town.gml", text), "");
+  EXPECT_EQ(scene_.nodes.at(0).name, "Dom_ć");
+  text.replace(text.find("windows-1250"), 12, "Shift_JIS");
+  EXPECT_NE(Read("town.gml", text).find("unknown encoding"), std::string::npos);
 }
 
 // ---- CityJSON ----
@@ -386,6 +425,38 @@ INSTANTIATE_TEST_SUITE_P(Geographic, OtherMeridian,
                                          MeridianCase{"EPSG:4817", {10.8, 59.9}},
                                          MeridianCase{"EPSG:4807", {2.4, 48.9}},
                                          MeridianCase{"EPSG:4819", {7.7, 36.9}}));
+
+// Poland's and Romania's systems lie within their areas both ways round; which it is, closed houses tell.
+TEST_F(CityModel, NorthingsFirstAreToldByHousesThatAreNotInsideOut) {
+  const double corners[][3] = {{0, 0, 0}, {12, 0, 0}, {12, 7, 0}, {0, 7, 0},
+                               {0, 0, 5}, {12, 0, 5}, {12, 7, 5}, {0, 7, 5}};
+  const int faces[][4] = {{0, 1, 5, 4}, {1, 2, 6, 5}, {2, 3, 7, 6}, {3, 0, 4, 7}, {4, 5, 6, 7}};  // open below
+  for (const char* system : {"EPSG:2180", "http://www.opengis.net/def/crs/EPSG/0/3844"}) {
+    for (const bool north_first : {false, true}) {
+      std::string surfaces;
+      for (const auto& face : faces) {
+        std::string ring;
+        for (const int k : {0, 1, 2, 3, 0}) {
+          const auto& [x, y, z] = corners[face[k]];
+          const double east = 500000 + x, north = 300000 + y;
+          for (const double v : {north_first ? north : east, north_first ? east : north, z})
+            ring += std::to_string(v) + " ";
+        }
+        surfaces += Surface("WallSurface", Polygon(ring));
+      }
+      std::string text = Gml(Member(surfaces));
+      const std::string before = "urn:ogc:def:crs,crs:EPSG::25832,crs:EPSG::5783";
+      text.replace(text.find(before), before.size(), system);
+      ASSERT_EQ(Read("town.gml", text), "");
+      const Vec3 low = GroundFromGltf(scene_.meshes.at(0).positions.at(0));
+      EXPECT_NEAR(low.x + scene_.origin_m.x, 500000, 13) << system << north_first;
+      EXPECT_NEAR(low.y + scene_.origin_m.y, 300000, 13);
+      ASSERT_EQ(warnings_.size(), north_first ? 0u : 1u) << system;
+      if (north_first) continue;
+      EXPECT_NE(warnings_[0].find("taken for the easting"), std::string::npos) << warnings_[0];
+    }
+  }
+}
 
 // ---- OBJ ----
 
