@@ -31,8 +31,8 @@ struct FootprintsArguments {
 
 void AddOptions(CLI::App* app, FootprintsArguments* a) {
   app->add_option("TOWN", a->towns,
-                  "The town: glTF, tagged by the town convention or not; OBJ; CityJSON; CityGML. Several: tiles of one "
-                  "city, of which what stands in two counts once")
+                  "The town: glTF, tagged by the town convention or not; OBJ, PLY, STL; CityJSON, CityGML; .blend, "
+                  ".fbx, .dae, .x3d. Several: tiles of one city, of which what stands in two counts once")
       ->required();
   app->add_option("-o,--output", a->output, "GeoJSON file to write")->required();
   app->add_option("--map", a->map, "Also draw a plan as SVG");

@@ -64,9 +64,12 @@ std::string_view LocalName(std::string_view name) {
   return at == std::string_view::npos ? name : name.substr(at + 1);
 }
 
-// lod2Solid, lod3MultiSurface, tin, ...: the level of what is in it. Curves, outlines and interiors are none.
-std::optional<int> LodOf(std::string_view name) {
+// lod2Solid, lod3MultiSurface, tin, ...: the level of what is in it. Curves, outlines and interiors are none. Of what
+// lies on the ground level 0 says where, as kLevel0.
+constexpr int kLevel0 = 5;
+std::optional<int> LodOf(std::string_view name, bool on_ground) {
   if (name == "tin") return 1;
+  if (name == "lod0MultiSurface" && on_ground) return kLevel0;
   if (name.size() < 5 || name.substr(0, 3) != "lod" || name[3] < '1' || name[3] > '4') return std::nullopt;
   const std::string_view what = name.substr(4);
   constexpr std::array<std::string_view, 5> kSurfaces{"Solid", "MultiSurface", "Geometry", "ImplicitRepresentation",
@@ -238,13 +241,17 @@ class Reader {
     else if (const CitySurface* surface = FindCitySurface(e->name)) e->surface = surface;
     else if (e->name == "exterior" || e->name == "interior" || IsPolygon(e->name)) EnterGeometry(e->name);
     else if (e->name == "ImplicitGeometry") implicit_ = Implicit{};
-    else if (const std::optional<int> lod = LodOf(e->name)) e->lod = *lod;
+    else if (const std::optional<int> lod = LodOf(e->name, IsOnGround(*e))) e->lod = *lod;
     if (!reference.empty() && e->lod > 0 && e->object >= 0 && reference[0] == '#')
       references_.push_back({e->object, e->feature, e->lod, reference.substr(1)});
     if (IsWord(e->name) && e->object >= 0) Collect(true), text_.clear();
     if (!HoldsCoordinates(e->name)) return;
     Collect(in_polygon_ || implicit_);
     text_.clear();
+  }
+
+  bool IsOnGround(const Element& e) const {
+    return e.object >= 0 && At(objects_, e.object).feature.kind == NodeKind::kGround;
   }
 
   void Collect(bool on) {
@@ -414,8 +421,11 @@ class Reader {
     return Ok();
   }
 
-  // Level 4 only where there is no other: it is about interiors.
-  static int Finer(int a, int b) { return b == 4 ? (a == 0 ? 4 : a) : (a == 4 ? b : std::max(a, b)); }
+  // Level 4 only where there is none from 1 to 3: it is about interiors. Level 0 only where there is no other.
+  static int Finer(int a, int b) {
+    constexpr std::array<int, 6> kRank{0, 3, 4, 5, 2, 1};
+    return At(kRank, a) >= At(kRank, b) ? a : b;
+  }
 
   // Each part has its own finest level; a building's own model gives way to finer ones of its parts.
   struct Levels {
@@ -425,7 +435,7 @@ class Reader {
     Levels levels{std::vector<int>(static_cast<size_t>(features_), 0), std::vector<int>(objects_.size(), 0)};
     for (const StoredPolygon& p : polygons_) {
       for (int* finest : {&At(levels.of_feature, p.feature), &At(levels.of_object, p.object)})
-        if (p.lod > 0) *finest = *finest == 0 ? p.lod : Finer(*finest, p.lod);
+        if (p.lod > 0) *finest = Finer(*finest, p.lod);
     }
     return levels;
   }
@@ -483,6 +493,9 @@ class Reader {
       builder->AddPolygon(foundation ? builder->FoundationOf(node[object]) : node[object], p.surface, p.rings,
                           LookOf(p, materials));
     }
+    for (size_t i = 0; i < objects_.size(); ++i)  // for the builder to tell that it is left out
+      if (node[i] < 0 && objects_[i].feature.kind == NodeKind::kBuilding)
+        builder->AddNode(objects_[i].name, NodeKind::kBuilding);
   }
 
   struct Object {

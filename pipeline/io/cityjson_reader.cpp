@@ -242,7 +242,8 @@ class Reader {
     for (const Json& geometry : *geometries) {
       if (!geometry.is_object()) return Bad("a geometry must be an object");
       const bool is_instance = geometry.value("type", Json()) == "GeometryInstance";
-      if (!is_instance && (finest == 0 || LevelOfGeometry(geometry) != finest)) continue;
+      const bool is_outline = finest == 0 && kind != NodeKind::kGround;  // of what lies on the ground it says where
+      if (!is_instance && (is_outline || LevelOfGeometry(geometry) != finest)) continue;
       if (Error e = is_instance ? ReadInstance(geometry, node, kind) : ReadShape(geometry, vertices_, node, kind))
         return e;
     }

@@ -303,6 +303,19 @@ Error TownBuilder::CheckReach() const {
   return Ok();
 }
 
+std::string TownBuilder::TellWithoutFaces() const {
+  std::vector<bool> has_faces(nodes_.size(), false);
+  for (const Triangle& t : triangles_)
+    for (int node = t.node; node >= 0 && !has_faces[static_cast<size_t>(node)]; node = At(nodes_, node).parent)
+      has_faces[static_cast<size_t>(node)] = true;
+  std::vector<std::string> names;
+  for (size_t i = 0; i < nodes_.size(); ++i)
+    if (nodes_[i].kind == NodeKind::kBuilding && !has_faces[i]) names.push_back(nodes_[i].name);
+  if (names.empty()) return {};
+  return std::to_string(names.size()) + " buildings have no faces in the levels of detail from 1 to 3, such as '" +
+         names[0] + "'";
+}
+
 Error TownBuilder::Finish(const std::string& file, const CityCoordinates& coordinates, Scene* scene,
                           std::string* source_system, std::vector<std::string>* warnings) {
   std::string from, to = coordinates.system;
@@ -316,7 +329,11 @@ Error TownBuilder::Finish(const std::string& file, const CityCoordinates& coordi
   if (without_area_ > 0)
     notes.push_back(std::to_string(without_area_) +
                     " faces have fewer than three corners or no area; they were left out");
-  if (triangles_.empty()) return named(Fail("holds no face with an area, so there is no town in it"));
+  const std::string without_faces = TellWithoutFaces();
+  if (triangles_.empty())
+    return named(Fail("holds no face with an area, so there is no town in it" +
+                      (without_faces.empty() ? "" : ": " + without_faces)));
+  if (!without_faces.empty()) notes.push_back(without_faces + "; they were left out");
   if (Error error = CheckReach()) return named(error);
   if (from.empty() && stated)
     return named(

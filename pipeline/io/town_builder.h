@@ -71,6 +71,7 @@ class TownBuilder {
   Error MapToMetres(const CityCoordinates& coordinates, std::string* from, std::string* to,
                     std::vector<std::string>* notes);
   Error CheckReach() const;
+  std::string TellWithoutFaces() const;  // of buildings; empty: none
   void Build(Scene* scene);
   void AddTriangles(Scene* scene);
   std::vector<SceneNode> nodes_;

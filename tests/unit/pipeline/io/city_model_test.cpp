@@ -245,6 +245,38 @@ TEST_F(CityModel, CityGml3HasBoundariesAndSpaces) {
   EXPECT_TRUE(warnings_.empty());
 }
 
+// As of houses that no laser has seen; of a square the outline says all.
+TEST_F(CityModel, OutlinesAreSquaresButNoHouses) {
+  const std::string lod0 = "<bldg:lod0FootPrint><gml:MultiSurface><gml:surfaceMember>" + Polygon(kGround) +
+                           "</gml:surfaceMember></gml:MultiSurface></bldg:lod0FootPrint>";
+  const std::string square =
+      "<core:cityObjectMember><l:LandUse xmlns:l=\"http://www.opengis.net/citygml/landuse/2.0\"><l:lod0MultiSurface>"
+      "<gml:MultiSurface><gml:surfaceMember>" +
+      Polygon(kGround) +
+      "</gml:surfaceMember></gml:MultiSurface></l:lod0MultiSurface></l:LandUse></core:cityObjectMember>";
+  ASSERT_EQ(Read("town.gml", Gml(Member(lod0, "unseen") + Member(Surface("WallSurface", Polygon(kWall))) + square)),
+            "");
+  EXPECT_EQ(Triangles(false), 2 + 2);
+  EXPECT_TRUE(std::any_of(scene_.nodes.begin(), scene_.nodes.end(),
+                          [](const SceneNode& n) { return n.kind == NodeKind::kGround && !n.meshes.empty(); }));
+  ASSERT_EQ(warnings_.size(), 1u);
+  EXPECT_NE(warnings_[0].find("'unseen'"), std::string::npos) << warnings_[0];
+  EXPECT_NE(Read("town.gml", Gml(Member(lod0, "unseen"))).find("levels of detail"), std::string::npos);
+
+  const auto city = [](const std::string& type, const std::string& lod) {
+    return "{\"type\":\"" + type + R"(","geometry":[{"type":"MultiSurface","lod":")" + lod +
+           R"(","boundaries":[[[0,1,2]]]}]})";
+  };
+  const std::string json = R"({"type":"CityJSON","version":"2.0","transform":{"scale":[1,1,1],"translate":[0,0,0]},)"
+                           R"("vertices":[[0,0,0],[9,0,0],[9,8,0]],"CityObjects":{"unseen":)" +
+                           city("Building", "0") + ",\"square\":" + city("LandUse", "0") +
+                           ",\"street\":" + city("Road", "0.3") + "}}";
+  ASSERT_EQ(Read("town.city.json", json), "");
+  EXPECT_EQ(Triangles(false), 2);
+  ASSERT_EQ(warnings_.size(), 1u);
+  EXPECT_NE(warnings_[0].find("'unseen'"), std::string::npos) << warnings_[0];
+}
+
 TEST_F(CityModel, CityGmlInCodePagesKeepsItsNames) {
   std::string text = Gml(Member(Surface("WallSurface", Polygon(kWall)), "Dom_\xe6"));
   text.replace(text.find("\"1.0\""), 5, "\"1.0\" encoding=\"windows-1250\"");
