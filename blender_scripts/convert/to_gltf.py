@@ -79,6 +79,18 @@ def only_clips_of_rigs():
             rig.animation_data.action = None
 
 
+def stand_at_rest():
+    """The exporter brings what hangs on a posed bone back to the rest pose, but amiss where the rig itself was moved,
+    turned or scaled; it poses by the clips itself."""
+    for rig in bpy.context.scene.objects:
+        if rig.type != "ARMATURE":
+            continue
+        if rig.animation_data:
+            rig.animation_data.use_nla = False
+        for bone in rig.pose.bones:
+            bone.matrix_basis.identity()
+
+
 def apply_modifiers_beside_shape_keys():
     """The exporter applies modifiers to all meshes or to none, and shapes are lost where it does. Whether it may."""
     meshes = [thing for thing in bpy.context.scene.objects if thing.type == "MESH"]
@@ -105,6 +117,7 @@ def main():
     if not any(thing.type == "MESH" for thing in bpy.context.scene.objects):
         fail("%s: holds no mesh" % path)
     only_clips_of_rigs()
+    stand_at_rest()
     apply_all = apply_modifiers_beside_shape_keys()
     write_atomically(settings["output"], lambda out: gltf.export_glb(
         out, use_visible=True, export_apply=apply_all, export_morph=True, export_morph_normal=False, export_morph_animation=False, export_animations=True, export_nla_strips=True,

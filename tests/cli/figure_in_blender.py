@@ -1,4 +1,4 @@
-"""Makes a rigged figure of four ellipsoids that walks and stands, as .blend, .fbx, .dae and .obj, and a town of one house as .blend, .x3d and .ply.
+"""Makes a rigged figure of four ellipsoids that walks and stands, as .blend, .fbx, .dae and .obj, with a hat as .blend, and a town of one house as .blend, .x3d and .ply.
 
     blender --background --factory-startup --python-exit-code 1 --python figure_in_blender.py -- FOLDER
 """
@@ -85,6 +85,24 @@ def make_figure(folder):
         bpy.ops.wm.collada_export(filepath=str(folder / "figure.dae"))
 
 
+def make_figure_with_hat(folder):
+    """Its rig stands elsewhere, turned, and bows; the hat hangs on the head's bone."""
+    bpy.ops.wm.open_mainfile(filepath=str(folder / "figure.blend"))
+    rig = bpy.data.objects["rig"]
+    bpy.ops.mesh.primitive_cube_add(location=(0, 0, 1.8), scale=(0.1, 0.1, 0.1))
+    hat, at = bpy.context.object, bpy.context.object.matrix_world.copy()
+    hat.name, hat.parent, hat.parent_type, hat.parent_bone = "hat", rig, "BONE", "head"
+    hat.matrix_world = at
+    rig.animation_data.action = bpy.data.actions.new("bow")
+    for name, half_rad in (("hips", 0.3), ("head", 0.4)):
+        bone = rig.pose.bones[name]
+        bone.rotation_quaternion = (math.cos(half_rad), math.sin(half_rad), 0, 0)
+        bone.keyframe_insert("rotation_quaternion", frame=1)
+        bone.keyframe_insert("rotation_quaternion", frame=10)
+    rig.location, rig.rotation_euler = (3, 2, 0), (0, 0, 1)
+    bpy.ops.wm.save_as_mainfile(filepath=str(folder / "hat.blend"))
+
+
 def paint(house):
     """With a picture that lies as a UV map of a name says."""
     material = bpy.data.materials.new("wall")
@@ -120,4 +138,5 @@ def make_town(folder):
 
 target = pathlib.Path(sys.argv[sys.argv.index("--") + 1])
 make_figure(target)
+make_figure_with_hat(target)
 make_town(target)

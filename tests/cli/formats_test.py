@@ -47,6 +47,13 @@ class Formats(unittest.TestCase):
                 if with_morphs:  # Collada holds one clip
                     self.assertEqual({clip["name"] for clip in facts["clips"]}, {"walk", "idle", "talk"})
 
+    def test_a_hat_sits_on_the_head_of_a_rig_that_stands_elsewhere_and_bows(self):
+        facts = self.levels_of("hat.blend")
+        self.assertEqual(facts["levels"][0]["triangles"], TRIANGLES + 12)
+        self.assertAlmostEqual(facts["height_m"], 1.9, delta=0.01)
+        listed = run("flaneur", "avatar", self.folder / "hat.blend", "--list")
+        self.assertIn("on bone head", listed.stdout)
+
     def test_a_figure_without_bones_is_refused(self):
         result = run("flaneur", "avatar", self.folder / "figure.obj", "-o", self.folder / "none.glb")
         self.assertEqual(result.returncode, 2)
