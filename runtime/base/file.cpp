@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cctype>
 #include <cerrno>
+#include <climits>
 #include <csignal>
 #include <cstdlib>
 #include <cstring>
@@ -93,17 +94,18 @@ struct Target {
   bool as_it_is = false;  // a terminal, device or pipe: nothing takes its place
 };
 
-fs::path FolderOf(const fs::path& path) { return path.has_parent_path() ? path.parent_path() : fs::path("."); }
-
 // Of a process's open file, as /dev/stdout is behind its links, the name in /proc; empty: none.
-fs::path OpenFileOf(fs::path path) {
+[[gnu::cold]] std::string OpenFileOf(std::string path) {
   constexpr int kMostLinks = 40;  // as the system's own
-  std::error_code ec;
-  for (int i = 0; i < kMostLinks && fs::is_symlink(path, ec); ++i) {
-    const fs::path folder = fs::canonical(FolderOf(path), ec);
-    if (ec) break;
-    if (folder.string().rfind("/proc/", 0) == 0) return folder / path.filename();
-    path = folder / fs::read_symlink(path, ec);
+  for (int i = 0; i < kMostLinks; ++i) {
+    const size_t name = path.rfind('/') + 1;
+    char folder[PATH_MAX], link[PATH_MAX];
+    const ssize_t size = ::readlink(path.c_str(), link, sizeof link);
+    if (size <= 0 || !::realpath(name == 0 ? "." : path.substr(0, name).c_str(), folder)) break;
+    const std::string beside = std::string(folder) + "/";
+    if (beside.rfind("/proc/", 0) == 0) return beside + path.substr(name);
+    path.assign(link, static_cast<size_t>(size));
+    if (link[0] != '/') path.insert(0, beside);
   }
   return {};
 }
@@ -136,10 +138,9 @@ class NoSignalOfPipes {
 
 // One of our own stays where it has come to: what is printed after it neither overwrites it nor is overwritten.
 // A pipe is opened without waiting for a reader who may never come.
-int OpenAsItIs(const fs::path& path) {
-  const fs::path open_file = OpenFileOf(path);
-  if (open_file.parent_path() == "/proc/" + std::to_string(::getpid()) + "/fd")
-    return ::fcntl(std::atoi(open_file.filename().c_str()), F_DUPFD_CLOEXEC, 0);
+[[gnu::cold]] int OpenAsItIs(const fs::path& path) {
+  const std::string open_file = OpenFileOf(path), own = "/proc/" + std::to_string(::getpid()) + "/fd/";
+  if (open_file.rfind(own, 0) == 0) return ::fcntl(std::atoi(open_file.c_str() + own.size()), F_DUPFD_CLOEXEC, 0);
   const int fd = ::open(path.c_str(), O_WRONLY | O_APPEND | O_CLOEXEC | O_NOCTTY | O_NONBLOCK);
   if (fd >= 0) ::fcntl(fd, F_SETFL, O_APPEND);
   return fd;
@@ -173,6 +174,8 @@ bool UnderNewName(const fs::path& target, fs::path* name, auto make) {
   }
   return false;
 }
+
+fs::path FolderOf(const fs::path& path) { return path.has_parent_path() ? path.parent_path() : fs::path("."); }
 
 // So that the name outlives a power cut too.
 void SyncFolder(const fs::path& folder) {

@@ -116,12 +116,14 @@ FrameBlock MakeFrameBlock(const Mat4& view_projection, Vec3 eye, float focal_px,
   block.view_projection = view_projection;
   block.inverse_view_projection = Inverse(view_projection);
   block.near_shadow = shadows.near.matrix;
+  block.middle_shadow = shadows.middle.matrix;
   block.far_shadow = shadows.far.matrix;
   block.fine_shadow = shadows.people_matrices[0];
   block.people_shadow = shadows.people_matrices[1];
-  block.shadow_layers = {static_cast<float>(shadows.near.layer), static_cast<float>(shadows.far.layer), shadow_reach_m,
-                         0};
-  block.shadow_texels = {Texel_m(shadows.near), Texel_m(shadows.far), kPeopleTexels_m[0], kPeopleTexels_m[1]};
+  block.town_shadow_layers = {static_cast<float>(shadows.near.layer), static_cast<float>(shadows.middle.layer),
+                              static_cast<float>(shadows.far.layer), 0};
+  block.town_shadow_texels = {Texel_m(shadows.near), Texel_m(shadows.middle), Texel_m(shadows.far), 0};
+  block.people_shadows = {kPeopleTexels_m[0], kPeopleTexels_m[1], shadow_reach_m, 0};
   block.eye = {eye.x, eye.y, eye.z, focal_px};
   block.to_sun = Wide(to_sun);
   block.sun_color = Wide(light.sun * exposure);  // the sky is as it is: no town makes that too bright

@@ -3,20 +3,24 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace flaneur {
 namespace {
 
 constexpr int kTownMap_px = 2048;
-constexpr float kMaxFarHalfWidth_m = 400;             // half the width that the coarse map of the town covers
-constexpr float kLeastNear_m = 20, kMostNear_m = 55;  // of the fine one, which ends where the coarse one
-constexpr float kFarTexelAtNearsEnd = 1.0f / 300;     // has texels of so much of the distance
+constexpr float kMaxFarHalfWidth_m = 400;  // half the width that the coarse map of the town covers
+constexpr float kLeastNear_m = 20;         // of the fine one
+// A finer map ends where the next coarser one has texels of so much of the distance.
+constexpr float kTexelAtEnd = 1.0f / 300;
 constexpr float kShadowDepth_m = 140;
 constexpr float kFinePeopleDepth_m = 60;  // the longest shadows that reach from people in the fine map
-constexpr float kNearStep = 8.0f / 55;    // of half the fine map's width: when the eye has gone so far it is drawn anew
-constexpr float kSunStep = 0.004f;   // or when the sun has turned by so much, in radians: hardly a texel on the ground
-constexpr float kSunJump = 0.3f;     // so much of a turn is not waited for,
-constexpr float kFarthestSteps = 5;  // nor so many steps of the eye, which leave some of the near map before it
+constexpr float kNearStep = 8.0f / 55;    // of half a map's width: when the eye has gone so far it is drawn anew
+constexpr float kSunStep = 0.004f;  // or when the sun has turned by so much, in radians: hardly a texel on the ground
+constexpr float kSunJump = 0.3f;    // so much of a turn is not waited for,
+// nor so many steps of the eye: they leave some of the near map before it, but nothing of the middle one, which the
+// coarse one stands in for.
+constexpr float kFarthestSteps = 5, kFarthestMiddleSteps = 13;
 constexpr float kTrianglesAPicture = 10000;  // the work is spread over many pictures, so that no frame stumbles
 
 void SetUpMap() {
@@ -48,25 +52,48 @@ void BindMap(GLuint framebuffer, int size_px, const Mat4& matrix, Vec3 to_sun, G
 }
 
 DrawCost DrawSome(int64_t triangles, GLuint block_buffer, const TownView& town, ShadowMaps* maps, TownMap* map) {
-  BindMap(maps->town_framebuffers[static_cast<size_t>(maps->spare_layer)], kTownMap_px, map->next_matrix, map->to_sun,
-          block_buffer, map->next_step == 0);
+  int& spare = map == &maps->near ? maps->near_spare : maps->spare;
+  BindMap(maps->town_framebuffers[static_cast<size_t>(spare)], kTownMap_px, map->next_matrix, map->to_sun, block_buffer,
+          map->next_step == 0);
   const DrawCost cost = DrawTownShadow(map->next_matrix, triangles, town, &map->next_step);
   if (map->next_step < ShadowSteps(town)) return cost;
   map->draws = false;
-  std::swap(map->layer, maps->spare_layer);
+  std::swap(map->layer, spare);
   map->matrix = map->next_matrix;
   return cost;
 }
 
-// One map waits for the other, so that one picture draws parts of one only and both share the spare layer.
+// A matrix that takes every place out of the map.
+Mat4 Nowhere() {
+  Mat4 matrix;
+  matrix.m[0] = matrix.m[1] = matrix.m[2] = {0, 0, 0, 0};
+  matrix.m[3] = {9, 9, 9, 1};
+  return matrix;
+}
+
+void LeaveOut(TownMap* map) {
+  map->valid = map->draws = false;
+  map->matrix = Nowhere();
+}
+
+// One picture draws parts of one map only. The near one, which the eye leaves soonest, and the others take turns, and
+// of those, which share a spare layer, one waits for the other.
+bool Waits(const TownMap& map, ShadowMaps* maps) {
+  if (&map == &maps->near) return maps->near_rests;
+  maps->others_wait |= maps->near_drew;
+  return maps->near_drew || (&map == &maps->middle ? maps->far : maps->middle).draws;
+}
+
 DrawCost UpdateTownMap(Vec3 center, Vec3 to_sun, float share, GLuint block_buffer, const TownView& town,
                        ShadowMaps* maps, TownMap* map) {
-  TownMap& other = map == &maps->near ? maps->far : maps->near;
   const float moved_m = Length(center - map->center), turned = Length(to_sun - map->to_sun);
-  const bool jumped = !map->valid || moved_m > kFarthestSteps * map->step_m || turned > kSunJump;
-  if (other.draws && !jumped) return {};
-  other.next_step = 0;  // from its beginning where this one takes the layer away
-  if (jumped || ((moved_m > map->step_m || turned > kSunStep) && !map->draws)) {
+  const float steps = map == &maps->middle ? kFarthestMiddleSteps : kFarthestSteps;
+  const bool jumped = !map->valid || moved_m > steps * map->step_m || turned > kSunJump;
+  const bool due = jumped || map->draws || moved_m > map->step_m || turned > kSunStep;
+  if (!due || (Waits(*map, maps) && !jumped)) return {};
+  if (map == &maps->near) maps->near_drew = true;
+  else (map == &maps->middle ? maps->far : maps->middle).next_step = 0;  // where this one takes the layer away
+  if (jumped || !map->draws) {
     map->center = center;
     map->to_sun = to_sun;
     map->next_matrix = ShadowMatrix(center, to_sun, map->half_width_m,
@@ -75,7 +102,6 @@ DrawCost UpdateTownMap(Vec3 center, Vec3 to_sun, float share, GLuint block_buffe
     map->next_step = 0;
   }
   map->valid = true;
-  if (!map->draws) return {};
   return DrawSome(jumped ? std::numeric_limits<int64_t>::max() : static_cast<int64_t>(share * kTrianglesAPicture),
                   block_buffer, town, maps, map);
 }
@@ -92,7 +118,8 @@ void CreateShadowMaps(ShadowMaps* maps) {
     maps->town_framebuffers[k] = NewFramebuffer();
     glFramebufferTextureLayer(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, maps->town_texture, 0, static_cast<GLint>(k));
   }
-  maps->far.layer = 1;
+  maps->middle.layer = 1;
+  maps->far.layer = 2;
   glGenTextures(1, &maps->people_texture);
   glBindTexture(GL_TEXTURE_2D_ARRAY, maps->people_texture);
   glTexStorage3D(GL_TEXTURE_2D_ARRAY, 1, GL_DEPTH_COMPONENT16, kPeopleMap_px, kPeopleMap_px,
@@ -106,7 +133,9 @@ void CreateShadowMaps(ShadowMaps* maps) {
 
 float Texel_m(const TownMap& map) { return 2 * map.half_width_m / static_cast<float>(kTownMap_px); }
 
-void ForgetTownShadows(ShadowMaps* maps) { maps->near.valid = maps->far.valid = false; }
+void ForgetTownShadows(ShadowMaps* maps) {
+  for (TownMap* map : {&maps->near, &maps->middle, &maps->far}) map->valid = false;
+}
 
 DrawCost UpdateTownShadows(Vec3 eye, Vec3 to_sun, float share, GLuint block_buffer, const TownView& town,
                            ShadowMaps* maps) {
@@ -116,11 +145,18 @@ DrawCost UpdateTownShadows(Vec3 eye, Vec3 to_sun, float share, GLuint block_buff
   const float reach_m = town.geometry.blocks.empty() ? 1 : Length(town.box.high - middle);
   const bool covered = reach_m <= kMaxFarHalfWidth_m;
   maps->far.half_width_m = covered ? reach_m : kMaxFarHalfWidth_m;
-  maps->near.half_width_m = std::clamp(Texel_m(maps->far) / kFarTexelAtNearsEnd, kLeastNear_m, kMostNear_m);
-  maps->near.step_m = kNearStep * maps->near.half_width_m;
-  DrawCost cost = UpdateTownMap(eye, to_sun, share, block_buffer, town, maps, &maps->near);
+  maps->middle.half_width_m = std::max(Texel_m(maps->far) / kTexelAtEnd, kLeastNear_m);
+  maps->near.half_width_m = std::max(Texel_m(maps->middle) / kTexelAtEnd, kLeastNear_m);
+  for (TownMap* map : {&maps->near, &maps->middle}) map->step_m = kNearStep * map->half_width_m;
   maps->far.step_m = kMaxFarHalfWidth_m / 8;
-  cost += UpdateTownMap(covered ? middle : eye, to_sun, share, block_buffer, town, maps, &maps->far);
+  maps->near_rests = std::exchange(maps->near_drew, false) && std::exchange(maps->others_wait, false);
+  const bool needs_middle = maps->middle.half_width_m > maps->near.half_width_m;
+  if (!needs_middle) LeaveOut(&maps->middle);
+  DrawCost cost;
+  for (TownMap* map : {&maps->near, &maps->middle, &maps->far}) {
+    if (map == &maps->middle && !needs_middle) continue;
+    cost += UpdateTownMap(map == &maps->far && covered ? middle : eye, to_sun, share, block_buffer, town, maps, map);
+  }
   BindTextureArray(kTownShadowUnit, maps->town_texture);
   return cost;
 }

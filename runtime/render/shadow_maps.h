@@ -1,6 +1,6 @@
-// The sun's shadows: of the town a fine map around the eye and a coarse one of all of it, renewed bit by bit as eye and
-// sun move, and of the people a fine map around the eye and a coarse one of those ahead, drawn in every picture.
-// Internal to runtime/render.
+// The sun's shadows: of the town a fine map around the eye, a coarse one of all of it and, where that is too coarse to
+// follow the fine one, one between, renewed bit by bit as eye and sun move, and of the people a fine map around the eye
+// and a coarse one of those ahead, drawn in every picture. Internal to runtime/render.
 #pragma once
 #include <array>
 
@@ -17,7 +17,7 @@ inline constexpr float kFinePeople_m = 10, kFinePeopleAhead_m = 4;
 inline constexpr int kPeopleMap_px = 1024;
 inline constexpr float kPeopleTexels_m[] = {2 * kFinePeople_m / kPeopleMap_px, 2 * kPeopleShadow_m / kPeopleMap_px};
 
-// One map of the town: a layer that is shown; the next one is drawn into the layer that is spare.
+// One map of the town: a layer that is shown; the next one is drawn into a layer that is spare.
 struct TownMap {
   float half_width_m = 0, step_m = 0;  // step_m: drawn anew when the eye has gone so far
   int layer = 0;
@@ -30,9 +30,12 @@ struct TownMap {
 
 struct ShadowMaps {
   GLuint town_texture = 0, people_texture = 0;
-  std::array<GLuint, 3> town_framebuffers{};  // by layer
-  TownMap near, far;
-  int spare_layer = 2;
+  std::array<GLuint, 5> town_framebuffers{};    // by layer
+  TownMap near, middle, far;                    // no place lies in a middle one that is not needed
+  int near_spare = 3, spare = 4;                // layers; the middle and the far map share one
+  bool near_drew = false;                       // some of its next one, in the newest picture,
+  bool others_wait = false;                     // for which another one waits:
+  bool near_rests = false;                      // then it does so in the next
   std::array<GLuint, 2> people_framebuffers{};  // by layer: the fine and the coarse map
   std::array<Mat4, 2> people_matrices;
 };

@@ -2,7 +2,8 @@
 // with a FIELD of its own. Matrices and vectors of four alone: std140 lays them out as C++ does.
 FIELD(mat4, view_projection)
 FIELD(mat4, inverse_view_projection)
-FIELD(mat4, near_shadow)
+FIELD(mat4, near_shadow)    // of the town
+FIELD(mat4, middle_shadow)
 FIELD(mat4, far_shadow)
 FIELD(mat4, fine_shadow)    // of people near the eye
 FIELD(mat4, people_shadow)  // of people beyond
@@ -13,5 +14,6 @@ FIELD(vec4, sky_color)
 FIELD(vec4, ground_color)
 FIELD(vec4, haze_color)
 FIELD(vec4, zenith_color)
-FIELD(vec4, shadow_layers)  // of the town's near and far map, and how far from the eye people's shadows reach
-FIELD(vec4, shadow_texels)  // in metres, of the town's near and far map, and of people's fine and coarse one
+FIELD(vec4, town_shadow_layers)  // of the town's near, middle and far map
+FIELD(vec4, town_shadow_texels)  // theirs, in metres
+FIELD(vec4, people_shadows)      // in metres: texels of people's fine and coarse map, how far from the eye they reach

@@ -1,4 +1,4 @@
-// Light: sun with shadow maps (town near and far, people near and far), sky and ground from all sides, haze.
+// Light: sun with shadow maps (town near, middle and far, people near and far), sky and ground from all sides, haze.
 // ONE_SHADOW_TAP: shadows are looked up once, not four times. A surface is of the town or of a person: the town knows
 // itself in its maps and people are not in them; people know figures of themselves that are coarser than they are.
 #ifndef LIGHTING_GLSL
@@ -31,10 +31,12 @@ float from_middle(vec3 c) {
 // the more the flatter the sun. Unlike a bias towards the sun that leaves no gap at the foot of what stands upright.
 float town_shadow(vec3 p, vec3 n, float sine) {
   vec3 lift = n * (k_tap_reach * sine) + frame.to_sun.xyz * k_town_bias;
-  vec3 near = in_map(frame.near_shadow, p + lift * frame.shadow_texels.x);
-  vec3 far = in_map(frame.far_shadow, p + lift * frame.shadow_texels.y);
-  vec4 c = from_middle(near) < 0.497 ? vec4(near.xy, frame.shadow_layers.x, near.z)
-                                     : vec4(far.xy, frame.shadow_layers.y, far.z);
+  vec3 near = in_map(frame.near_shadow, p + lift * frame.town_shadow_texels.x);
+  vec3 middle = in_map(frame.middle_shadow, p + lift * frame.town_shadow_texels.y);
+  vec3 far = in_map(frame.far_shadow, p + lift * frame.town_shadow_texels.z);
+  vec4 c = from_middle(near) < 0.497     ? vec4(near.xy, frame.town_shadow_layers.x, near.z)
+           : from_middle(middle) < 0.497 ? vec4(middle.xy, frame.town_shadow_layers.y, middle.z)
+                                         : vec4(far.xy, frame.town_shadow_layers.z, far.z);
   return from_middle(c.xyw) > 0.499 ? 1.0 : shadow_tap(u_town_shadow_map, c);
 }
 // The town is not in people's maps: a bias away from the sun, by what half a texel of the map may be deep in the
@@ -43,9 +45,9 @@ float town_shadow(vec3 p, vec3 n, float sine) {
 float people_shadow(vec3 p, vec3 n, float n_to_sun, float sine, bool of_person) {
   vec3 into = frame.to_sun.xyz * (-0.5 * min(sine / n_to_sun, k_most_slope));
   vec3 clear = n * 0.05 + frame.to_sun.xyz * k_figure_bias_m;
-  vec3 fine = in_map(frame.fine_shadow, p + (of_person ? clear : into * frame.shadow_texels.z));
-  vec3 far = in_map(frame.people_shadow, p + (of_person ? clear : into * frame.shadow_texels.w));
-  float rim = from_middle(far), reach = distance(p, frame.eye.xyz) / frame.shadow_layers.z;
+  vec3 fine = in_map(frame.fine_shadow, p + (of_person ? clear : into * frame.people_shadows.x));
+  vec3 far = in_map(frame.people_shadow, p + (of_person ? clear : into * frame.people_shadows.y));
+  float rim = from_middle(far), reach = distance(p, frame.eye.xyz) / frame.people_shadows.z;
   vec4 c = max(abs(fine.x - 0.5), abs(fine.y - 0.5)) < 0.499 ? vec4(fine.xy, 0.0, fine.z) : vec4(far.xy, 1.0, far.z);
   return mix(shadow_tap(u_people_shadow_map, c), 1.0, max(smoothstep(0.42, 0.49, rim), smoothstep(0.8, 1.0, reach)));
 }

@@ -719,6 +719,37 @@ TEST_F(Drawing, NothingCastsAShadowOnItself) {
   }
 }
 
+// A house 85 m away in a town of 800 m: its shadow's edge is as narrow as a picture of the distance needs, and a fine
+// one at the feet.
+TEST_F(Drawing, EdgesOfShadowsAreNarrowNearAndFarInALargeTown) {
+  TourPack pack = MakePack({});
+  pack.materials.push_back({"grey", {0.4f, 0.4f, 0.4f, 1}, -1, false, false, 0.5f});
+  pack.meshes.push_back({{BoxPrimitive({-400, -1, -400}, {400, 0, 400}, 1, false)}});
+  pack.town.push_back({"ground", 2, {}});
+  struct Edge {
+    float distance_m, height_m, eye_m, most_m;
+  };
+  for (const Edge& edge : {Edge{85, 12, 20, 0.3f}, Edge{4, 1.5f, 1.6f, 0.05f}}) {
+    TourPack town = pack;
+    const float reach_m = edge.height_m / 0.6f, half_m = edge.distance_m / 10;
+    town.meshes.push_back({{BoxPrimitive({edge.distance_m - half_m, 0, reach_m},
+                                         {edge.distance_m + half_m, edge.height_m, 2 * reach_m}, 1, false)}});
+    town.town.push_back({"house", 3, {}});
+    FrameInput frame = LookEast();
+    frame.eye.z = edge.eye_m;
+    frame.pitch_rad = -std::atan(edge.eye_m / edge.distance_m);
+    frame.fov_rad = 3 / std::hypot(edge.distance_m, edge.eye_m);  // 3 m wide
+    frame.to_sun = Normalized(Vec3{0, -1, 0.6f});
+    const std::vector<uint8_t> rgb = Draw(town, frame, {.samples = 1});
+    const auto light = [&](int x) { return static_cast<int>(Pixel(rgb, x, kHeight / 2).r); };
+    const int left = light(20), right = light(kWidth - 20);
+    ASSERT_GT(std::abs(left - right), 40) << edge.distance_m;
+    int between = 0;
+    for (int x = 20; x < kWidth - 20; ++x) between += std::abs(light(x) - left) > 8 && std::abs(light(x) - right) > 8;
+    EXPECT_LE(static_cast<float>(between) * 3 / kWidth, edge.most_m) << edge.distance_m;
+  }
+}
+
 // Where no sun falls people would float: the ground about their feet is a little darker, on slopes too, and nothing
 // else is.
 TEST_F(Drawing, FeetShadeTheGroundAboutThem) {
