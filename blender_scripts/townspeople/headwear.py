@@ -146,11 +146,11 @@ def beard(
         rays = tl.direction(angles) * np.cos(elevation)[:, None]
         rays[:, 2] = np.sin(elevation)
         reach = np.array([sf.outermost(tree, centre, ray, 0.5) or 0.09 * size for ray in rays])
-        bump = np.sin(np.pi * min(t * 0.85 + 0.08, 1.0)) * np.sin(
-            np.pi * np.linspace(0.03, 0.97, len(angles))
-        )
-        extra = thickness * (bump * 1.1 + 0.02) + 0.002 * random_rows[r] * bump - 0.0015
-        ring = centre + rays * (tl.circular_blur(reach, 1, closed=False) + extra * size)[:, None]
+        bump = np.sqrt(np.sin(np.pi * t) * np.sin(np.pi * np.linspace(0.0, 1.0, len(angles))))
+        extra = thickness * 1.1 * bump + 0.002 * random_rows[r] * bump - 0.003
+        evened = tl.circular_blur(reach, 1, closed=False)
+        reach += np.minimum(2.5 * bump, 1.0) * (evened - reach)  # edges sink into the very skin
+        ring = centre + rays * (reach + extra * size)[:, None]
         ring[:, 2] -= length * size * front * t**1.5
         ring[:, 1] -= 0.3 * length * size * front * t
         points.append(ring)

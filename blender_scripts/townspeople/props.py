@@ -85,7 +85,7 @@ def _ring(centre, side, front, angles):
     return centre + np.cos(angles)[:, None] * front + np.sin(angles)[:, None] * side
 
 
-def _strap(tailor, high, low, angles_deg, stuff, columns=14, width=0.035, thickness=0.010):
+def _strap(tailor, high, low, angles_deg, stuff, columns=14, width=0.035, thickness=0.013):
     """A leather band about the trunk in the plane that holds the points `high` and `low` and
     the forward direction; the angles go from forward (0) by `high` (90) to the back; ends
     that do not meet slip under the garments.
@@ -98,7 +98,7 @@ def _strap(tailor, high, low, angles_deg, stuff, columns=14, width=0.035, thickn
     across = np.cross(ahead, up)
     centre = 0.5 * (high + low)
     below_arms, over_sleeves = (tl.trunk_tree(tailor, arms=arms) for arms in (False, True))
-    around = tl.angles_of(48)
+    around = tl.angles_of(96)
     edge = 0.5 * width * size * across
     reach = []
     for c, s in zip(np.cos(around), np.sin(around)):
