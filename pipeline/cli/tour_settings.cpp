@@ -267,7 +267,9 @@ void ReadPaintingSettings(TomlTable table, PaintingSettings* painting) {
 void ReadStop(TomlTable table, TourSettings* settings) {
   TourStop stop;
   table.TownPoint("position_m", &stop.position_m);
-  table.Angle("yaw", &stop.yaw_rad, -360, 360);
+  float yaw_rad = 0;
+  table.Angle("yaw", &yaw_rad, -360, 360);
+  if (table.Has("yaw_deg")) stop.yaw_rad = yaw_rad;
   table.Number("pause_s", &stop.pause_s, 0, 3600);
   table.Translations("caption", settings->language, &stop.captions);
   if (const auto own = stop.captions.find(settings->language); own != stop.captions.end()) {

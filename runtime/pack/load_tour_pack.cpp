@@ -455,8 +455,10 @@ Painting ReadPainting(const GltfFile& file, const TourObject& json) {
 }
 
 TourStop ReadStop(const GltfFile& file, const TourObject& json, TourPack* pack) {
-  TourStop stop{json.Point("position_m"), json.Yaw("yaw_rad"), json.Real("pause_s", 0, kMostPause_s),
-                json.Text("caption", kMostText_bytes)};
+  TourStop stop{json.Point("position_m")};
+  if (json.Has("yaw_rad")) stop.yaw_rad = json.Yaw("yaw_rad");
+  stop.pause_s = json.Real("pause_s", 0, kMostPause_s);
+  stop.caption = json.Text("caption", kMostText_bytes);
   stop.captions = ReadTranslations(json, "captions");
   stop.sounds = ReadSounds(file, json, pack);
   return stop;

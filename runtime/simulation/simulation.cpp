@@ -15,12 +15,12 @@
 #include "runtime/town/play.h"
 #include "runtime/town/population.h"
 #include "runtime/walk/camera_walk.h"
+#include "runtime/walk/start.h"
 
 namespace flaneur {
 namespace {
 
 constexpr float kFlatCell_m = 0.5f;
-constexpr float kFarthestView_m = 60;
 constexpr float kVisitorRoom_m = 0.55f, kBeforeFace_m = 0.55f;
 constexpr float kTallest_m = 3;  // of people, with what they carry
 
@@ -113,20 +113,6 @@ float LargestRadius_m(const Scenario& scenario, float residents_m) {
   float most_m = only_named ? 0 : residents_m;
   for (const ScenarioPerson& p : scenario.persons) most_m = std::max(most_m, p.radius_m > 0 ? p.radius_m : residents_m);
   return most_m;
-}
-
-// The direction in which one sees farthest at walking height.
-float OpenestView_rad(const Walkable& w, Vec2 p) {
-  constexpr int kDirections = 32;
-  float best_rad = 0, best_m = 0;
-  for (int k = 0; k < kDirections; ++k) {
-    const float yaw_rad = 2 * kPi * static_cast<float>(k) / kDirections;
-    float far_m = 0;
-    while (far_m < kFarthestView_m && IsFree(w, p + Vec2{std::cos(yaw_rad), std::sin(yaw_rad)} * far_m))
-      far_m += w.cell_m;
-    if (far_m > best_m) best_rad = yaw_rad, best_m = far_m;
-  }
-  return best_rad;
 }
 
 void PlaceCamera(const Scenario& scenario, Simulation* s) {

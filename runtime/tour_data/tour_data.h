@@ -85,7 +85,8 @@ inline int PaintingCell(const Painting& painting, Vec2 p) {
 
 struct TourStop {
   Vec2 position_m;
-  float yaw_rad = 0, pause_s = 0;
+  std::optional<float> yaw_rad = std::nullopt;  // where one looks; none: to where the view is open
+  float pause_s = 0;
   std::string caption = {};                          // in the tour's own language
   std::map<std::string, std::string> captions = {};  // by language, in all others
   std::map<std::string, StopSound> sounds = {};      // by language, what is said there

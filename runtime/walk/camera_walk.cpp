@@ -291,7 +291,7 @@ void FollowTour(const CameraInput& input, const VisitorInTown& v) {
   LookAbout(input, v);
   if (!t.begun) return;
   if (t.resting && Length(t.stops[HaltOf(t)].position_m - p) < kAtHalt_m) {
-    const float look_rad = t.stops[HaltOf(t)].yaw_rad;
+    const float look_rad = t.stops[HaltOf(t)].yaw_rad.value_or(0);
     StirLoiterers(p + DirectionOf(look_rad) * kBeforeSight_m, kBeforeSightRadius_m, &v.town);
     return TurnBeside(look_rad, kMostAsideAtHalt_rad, v);
   }

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "runtime/crowd/fast_math.h"
+#include "runtime/walk/start.h"
 #include "runtime/walk/visitor.h"
 
 namespace flaneur {
@@ -206,10 +207,11 @@ std::string NameOfStop(const GuidedTour& tour, size_t stop) {
 }
 
 float LookAt_rad(const GuidedTour& t, size_t stop) {
-  if (IsHalt(t, stop) || t.stops.size() < 2) return t.stops[stop].yaw_rad;
+  const float there_rad = t.stops[stop].yaw_rad.value_or(0);
+  if (IsHalt(t, stop) || t.stops.size() < 2) return there_rad;
   const size_t from = std::min(stop, t.stops.size() - 2);
   const Vec2 way = t.stops[from + 1].position_m - t.stops[from].position_m;
-  return Length(way) > 0 ? std::atan2(way.y, way.x) : t.stops[stop].yaw_rad;
+  return Length(way) > 0 ? std::atan2(way.y, way.x) : there_rad;
 }
 
 void TakeStops(const std::vector<TourStop>& stops, const std::string& own_language, GuidedTour* t) {
@@ -273,6 +275,7 @@ void PlaceStops(const VisitorInTown& v) {
       v.town.warnings.push_back(name + " is not on free ground; the tour passes near it");
       stop.position_m = CellCenter(w, cell);
     }
+    if (!stop.yaw_rad) stop.yaw_rad = OpenestView_rad(w, stop.position_m);
     kept.push_back(std::move(stop));
   }
   TakeStops(kept, std::string(v.visitor.tour.languages.front()), &v.visitor.tour);

@@ -233,7 +233,7 @@ TEST(TourSettings, AnglesBecomeRadians) {
                  &settings),
             "");
   EXPECT_FLOAT_EQ(settings.control.fov_rad, kPi / 2);
-  EXPECT_FLOAT_EQ(settings.path.at(0).yaw_rad, -kPi);
+  EXPECT_FLOAT_EQ(settings.path.at(0).yaw_rad.value(), -kPi);
 }
 
 // Each with the line it must name and words it must hold.

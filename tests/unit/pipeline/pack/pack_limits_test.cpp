@@ -91,7 +91,7 @@ TEST(PackLimits, ATurnedYawIsTheSameDirection) {
   PackFile file;
   TourPack pack;
   ASSERT_EQ(file.Open(WithJson(asking.whole, asking.json), "small.glb", &pack).message, "");
-  EXPECT_NEAR(pack.path[0].yaw_rad, 0.5f, 1e-4f);
+  EXPECT_NEAR(pack.path[0].yaw_rad.value(), 0.5f, 1e-4f);
 }
 
 // Sixty layers of two nodes that both name both of the next: 2^60 ways down.

@@ -447,10 +447,11 @@ TEST(TourPack, ATintKeepsToItsMaterialsOnEveryLevelAndTheImpostor) {
 TEST(TourPack, AMissingMemberIsRefusedUnlessADefaultStandsForIt) {
   const std::vector<uint8_t> whole = Written(SmallTour());
   const Json json = JsonOf(whole);
-  const std::set<std::string> optional{
-      "painting",      "guide",          "titles",    "language",     "captions", "sounds",  "tints",  "props",
-      "title_page",    "picture_view",   "logo_view", "photo",        "hotspots", "streets", "texts",  "reach_m",
-      "height_spread", "breadth_spread", "thanks",    "home_after_s", "flocks",   "play",    "smokes", "wind"};
+  const std::set<std::string> optional{"painting",  "guide",         "titles",         "language",   "captions",
+                                       "sounds",    "tints",         "props",          "title_page", "picture_view",
+                                       "logo_view", "photo",         "hotspots",       "streets",    "texts",
+                                       "reach_m",   "height_spread", "breadth_spread", "thanks",     "home_after_s",
+                                       "flocks",    "play",          "smokes",         "wind",       "yaw_rad"};
   for (const char* object :
        {"", "/avatars/0", "/avatars/0/levels/1", "/avatars/0/tints/0", "/avatars/0/props/0", "/avatars/0/impostor",
         "/avatars/0/impostor/clips/0", "/obstacles/1", "/ground", "/title_page", "/places/0", "/painting", "/path/0",

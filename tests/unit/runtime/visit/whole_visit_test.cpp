@@ -94,7 +94,7 @@ void ExpectHalt(Window* w) {
   w->Picture({}, 0, true);
   EXPECT_GT(w->Colours(), 500u);
   EXPECT_GT(w->visit->statistics().people_drawn, 0);
-  EXPECT_LT(std::abs(WrapAngle(s.visitor.camera.view.yaw_rad - s.visitor.tour.stops[halt].yaw_rad)), 0.1f);
+  EXPECT_LT(std::abs(WrapAngle(s.visitor.camera.view.yaw_rad - s.visitor.tour.stops[halt].yaw_rad.value_or(0))), 0.1f);
   EXPECT_GE(FreeView_m(s), kFreeView_m);
   EXPECT_EQ(s.town.crowd.view[s.visitor.guide.index], ViewClass::kVisible);
   EXPECT_LT(FromVisitor_m(s, s.town.crowd.position[s.visitor.guide.index]), 8);

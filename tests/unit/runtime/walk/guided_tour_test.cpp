@@ -228,7 +228,7 @@ TEST(Tour, NobodyGoesOnStandingBeforeWhatIsShown) {
   const TourStop& stop = s.visitor.tour.stops[1];
   Crowd& c = s.town.crowd;
   const size_t somebody = s.visitor.guide.index == 0 ? 1 : 0;
-  c.position[somebody] = stop.position_m + DirectionOf(stop.yaw_rad) * 2.0f;
+  c.position[somebody] = stop.position_m + DirectionOf(*stop.yaw_rad) * 2.0f;
   c.wait_s[somebody] = 40;
   Step(&s, 2);
   EXPECT_LT(c.wait_s[somebody], 1);
@@ -236,6 +236,23 @@ TEST(Tour, NobodyGoesOnStandingBeforeWhatIsShown) {
 
 INSTANTIATE_TEST_SUITE_P(WithAndWithoutGuide, Tours, ::testing::Values("monk", ""),
                          [](const auto& which) { return std::string(which.param).empty() ? "alone" : "guided"; });
+
+// Who wrote the tour said only where to stop: nobody is left before a wall.
+TEST(Tour, AStopThatSaysNoDirectionLooksOverOpenGroundToTheTown) {
+  for (const Vec2 at : {Vec2{28, 10}, Vec2{28, 32}, Vec2{11, 15}, Vec2{41, 20}, Vec2{58, 38}, Vec2{30, 19.5f}}) {
+    TourPack pack = TourTown(0);
+    pack.guide.clear();
+    pack.path = {Halt(at, 0, 3), Halt({20, 6}, 0, 3)};
+    pack.path[0].yaw_rad.reset();
+    const Simulation s = Started(pack);
+    const Vec2 ahead = DirectionOf(s.visitor.camera.view.yaw_rad);
+    for (float far_m = 0; far_m < 10; far_m += 0.5f)
+      EXPECT_TRUE(IsFree(s.town.walkable, s.visitor.tour.stops[0].position_m + ahead * far_m))
+          << at.x << ' ' << at.y << ": " << far_m;
+    EXPECT_GT(Dot(ahead, Vec2{30, 20} - at), -5) << at.x << ' ' << at.y << ": away from the town";
+  }
+  EXPECT_FLOAT_EQ(*Started(TourTown(0)).visitor.tour.stops[1].yaw_rad, kPi / 2) << "who says one has it";
+}
 
 TourStop Spoken() {
   TourStop stop;
