@@ -1207,6 +1207,59 @@ TEST(ShadowGeometry, IsMuchSmallerAndStaysInShape) {
   EXPECT_NEAR(box.high.x - box.low.x, 0.6f, 0.1f);
 }
 
+// Of legs thinner than its cells nothing was left: people 20 m away stood beside the shadow of their trunk.
+TEST(ShadowGeometry, KeepsThinLegsFromWhereverTheSunShines) {
+  TourPack pack = MakePack({});
+  PackPrimitive& p = pack.meshes[0].primitives[0];
+  p = {};
+  const auto add_tube = [&p](Vec3 foot, float height_m, float radius_m, uint16_t joint) {
+    constexpr int kAround = 12, kUp = 6;
+    const auto first = static_cast<uint32_t>(p.positions.size());
+    for (int j = 0; j <= kUp; ++j) {
+      for (int i = 0; i < kAround; ++i) {
+        const float a = 2 * kPi * static_cast<float>(i) / kAround;
+        p.positions.push_back(
+            foot + Vec3{radius_m * std::cos(a), height_m * static_cast<float>(j) / kUp, radius_m * std::sin(a)});
+        p.normals.push_back({std::cos(a), 0, std::sin(a)});
+        p.joints.push_back({joint, 0, 0, 0});
+        p.weights.push_back({255, 0, 0, 0});
+        if (j == kUp) continue;
+        const auto at = [&](int x, int y) { return first + static_cast<uint32_t>(y * kAround + x % kAround); };
+        for (const uint32_t corner :
+             {at(i, j), at(i + 1, j), at(i, j + 1), at(i, j + 1), at(i + 1, j), at(i + 1, j + 1)})
+          p.indices.push_back(corner);
+      }
+    }
+  };
+  add_tube({0, 0.85f, 0}, 0.9f, 0.2f, 0);
+  for (const float side : {-0.1f, 0.1f}) {
+    add_tube({side, 0, 0.03f}, 0.43f, 0.05f, side < 0 ? 1 : 2);
+    add_tube({side, 0.43f, 0.03f}, 0.42f, 0.07f, side < 0 ? 3 : 4);
+  }
+  const PersonGeometry whole = BuildPersonGeometry(pack, pack.meshes[0], PlanSurfaces(pack, {})),
+                       shadow = ShadowGeometry(whole, 0.34f, 96);
+  EXPECT_LE(shadow.indices.size() / 3, 96u);
+  for (const uint16_t joint : {1, 2, 3, 4}) {
+    const auto area_from = [joint](const PersonGeometry& of, Vec3 sun) {
+      float area = 0;
+      for (size_t i = 0; i + 2 < of.indices.size(); i += 3) {
+        const PersonVertex &a = of.vertices[of.indices[i]], &b = of.vertices[of.indices[i + 1]],
+                           &c = of.vertices[of.indices[i + 2]];
+        if (a.joints[0] == joint && b.joints[0] == joint && c.joints[0] == joint)
+          area += std::abs(Dot(Cross(b.position - a.position, c.position - a.position), sun)) / 2;
+      }
+      return area;
+    };
+    for (const float turn_rad : {0.0f, 0.5f, 0.8f, 1.6f}) {
+      const Vec3 sun{std::cos(turn_rad), 0, std::sin(turn_rad)};
+      EXPECT_GT(area_from(shadow, sun), 0.6f * area_from(whole, sun) / 2) << joint << ": " << turn_rad;  // it is closed
+    }
+  }
+  Box box;
+  for (const uint32_t i : shadow.indices) Include(shadow.vertices[i].position, &box);
+  EXPECT_NEAR(box.low.y, 0, 0.01f) << "down to the soles";
+}
+
 TEST(ShadowGeometry, KeepsTheBrimOfAHat) {
   TourPack pack = MakePack({});
   PackPrimitive& p = pack.meshes[0].primitives[0];
