@@ -16,6 +16,7 @@ namespace {
 constexpr float kDefaultHeight_m = 1.75f;
 constexpr float kMinHeight_m = 0.5f, kMaxHeight_m = 2.3f;  // kept as they are in between
 constexpr float kSmallest_m = 0.8f;                        // who walks by themselves
+constexpr float kTallest_m = 2.1f;                         // with a hat
 constexpr float kFlat = 0.4f;                              // of its width: a lower figure hardly stands
 constexpr float kHangs = 0.02f;                            // of the height: what hangs lower than the soles by more
 constexpr float kDefaultSpeed_mps = 1.3f;                  // of an adult, where nothing tells
@@ -185,15 +186,16 @@ bool IsPlausible(float height_m) { return height_m >= kMinHeight_m && height_m <
 float HeightByItself(const NormalizeOptions& options, const Avatar& avatar, float height,
                      std::vector<std::string>* warnings) {
   if (options.scale > 0) return height;
-  if (IsPlausible(height)) {
-    if (height < kSmallest_m && HeightOfSkeleton(avatar, options.told) > 0)
-      warnings->push_back(
-          "the figure is " + Metres(height) +
-          " m high, less than a child who walks; give its height, or a scale for all people of its pack");
+  const float skeleton = HeightOfSkeleton(avatar, options.told);
+  if (IsPlausible(height) || IsPlausible(skeleton)) {
+    const char* doubt = height < kSmallest_m  ? "less than a child who walks"
+                        : height > kTallest_m ? "taller than people in hats"
+                                              : nullptr;
+    if (doubt != nullptr && skeleton > 0)
+      warnings->push_back("the figure is " + Metres(height) + " m high, " + doubt +
+                          "; give its height, or a scale for all people of its pack");
     return height;
   }
-  const float skeleton = HeightOfSkeleton(avatar, options.told);
-  if (IsPlausible(skeleton)) return height;
   if (const float unit_m = UnitOf(skeleton); skeleton > 0 && unit_m > 0) {
     char unit[24];
     std::snprintf(unit, sizeof unit, "%g", static_cast<double>(unit_m));

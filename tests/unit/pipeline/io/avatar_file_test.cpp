@@ -343,14 +343,15 @@ TEST_F(AvatarFile, WhoHasNoClipsWalksByThoseThatComeWithTheProgram) {
 }
 
 // As figures of a toy set are, each file in itself a person.
-TEST_F(AvatarFile, WhoIsSmallerThanAChildWhoWalksIsAskedAbout) {
+TEST_F(AvatarFile, WhoIsSmallerThanAChildWhoWalksOrTallerThanPeopleInHatsIsAskedAbout) {
   const auto asked = [&] {
-    return std::any_of(warnings_.begin(), warnings_.end(),
-                       [](const std::string& w) { return w.find("less than a child who walks") != std::string::npos; });
+    return std::any_of(warnings_.begin(), warnings_.end(), [](const std::string& w) {
+      return w.find("scale for all people of its pack") != std::string::npos;
+    });
   };
-  for (const float unit : {0.4f, 0.6f, 1.0f}) {
+  for (const float unit : {0.4f, 0.6f, 1.0f, 1.15f, 1.3f}) {
     ASSERT_EQ(Read(Write(MadeHuman({.unit = unit}))), "");
-    EXPECT_EQ(asked(), unit == 0.4f) << unit;
+    EXPECT_EQ(asked(), unit == 0.4f || unit == 1.3f) << unit;
     EXPECT_NEAR(avatar_.height_m, 1.74f * unit, 0.03f) << "as it is all the same";
   }
   ReadAvatarOptions options;
