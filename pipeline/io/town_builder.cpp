@@ -312,8 +312,9 @@ std::string TownBuilder::TellWithoutFaces() const {
   for (size_t i = 0; i < nodes_.size(); ++i)
     if (nodes_[i].kind == NodeKind::kBuilding && !has_faces[i]) names.push_back(nodes_[i].name);
   if (names.empty()) return {};
-  return std::to_string(names.size()) + " buildings have no faces in the levels of detail from 1 to 3, such as '" +
-         names[0] + "'";
+  const std::string few = names.size() == 1 ? "" : " and " + std::to_string(names.size() - 1) + " more buildings";
+  return "'" + names[0] + "'" + few + (few.empty() ? " has" : " have") +
+         " no faces in the levels of detail from 1 to 3";
 }
 
 Error TownBuilder::Finish(const std::string& file, const CityCoordinates& coordinates, Scene* scene,
@@ -333,7 +334,7 @@ Error TownBuilder::Finish(const std::string& file, const CityCoordinates& coordi
   if (triangles_.empty())
     return named(Fail("holds no face with an area, so there is no town in it" +
                       (without_faces.empty() ? "" : ": " + without_faces)));
-  if (!without_faces.empty()) notes.push_back(without_faces + "; they were left out");
+  if (!without_faces.empty()) notes.push_back(without_faces + "; left out");
   if (Error error = CheckReach()) return named(error);
   if (from.empty() && stated)
     return named(
