@@ -72,7 +72,8 @@ TEST(File, AnOpenFileIsAddedTo) {
   ASSERT_GE(fd, 0);
   ASSERT_EQ(::write(fd, "before ", 7), 7);
   fs::create_symlink("/dev/fd/" + std::to_string(fd), link);
-  for (const std::string& name : {"/proc/self/fd/" + std::to_string(fd), "/dev/fd/" + std::to_string(fd), link.string()})
+  for (const std::string& name :
+       {"/proc/self/fd/" + std::to_string(fd), "/dev/fd/" + std::to_string(fd), link.string()})
     EXPECT_EQ(WriteTextFile(name, "and ").message, "") << name;
   ASSERT_EQ(::write(fd, "after", 5), 5);
   ::close(fd);
