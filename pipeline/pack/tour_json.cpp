@@ -192,9 +192,7 @@ Json PlayJson(const Place& place) {
 }
 
 Json StopJson(const TourStop& stop, const TourIndices& indices) {
-  Json json{{"position_m", PointJson(stop.position_m)},
-            {"pause_s", Short(stop.pause_s)},
-            {"caption", stop.caption}};
+  Json json{{"position_m", PointJson(stop.position_m)}, {"pause_s", Short(stop.pause_s)}, {"caption", stop.caption}};
   if (stop.yaw_rad) json["yaw_rad"] = Short(*stop.yaw_rad);
   for (const auto& [language, caption] : stop.captions) json["captions"][language] = caption;
   for (const auto& [language, sound] : stop.sounds) {

@@ -60,8 +60,8 @@ inline void Unweld(Mesh* mesh) {
   *mesh = std::move(out);
 }
 
-inline void Jitter(float most_m, bool apart, std::mt19937* random, std::map<std::tuple<float, float, float>, Vec3>* moves,
-                   Mesh* mesh) {
+inline void Jitter(float most_m, bool apart, std::mt19937* random,
+                   std::map<std::tuple<float, float, float>, Vec3>* moves, Mesh* mesh) {
   const auto step = [&] { return most_m * (static_cast<float>((*random)() % 2001) * 1e-3f - 1); };
   for (Vec3& p : mesh->positions) {
     Vec3 move{step(), step(), step()};
