@@ -9,10 +9,9 @@
 namespace flaneur {
 namespace {
 
-constexpr float kOpen_m = 30;  // a view is open enough
-constexpr float kTownCounts =
-    0.5f;                        // a way away from the town is as good as one to it of this share of its length less
-constexpr float kInTown_m = 20;  // and less so for who is so near its middle
+constexpr float kOpen_m = 30;        // a view is open enough
+constexpr float kTownCounts = 0.5f;  // of a direction's length, for one that leads to the town
+constexpr float kInTown_m = 20;      // and less for who is so near its middle
 
 // The middle of what stands there; p where nothing does.
 Vec2 MiddleOfTown(const Walkable& w, Vec2 p) {
