@@ -15,6 +15,7 @@ namespace {
 
 constexpr float kLargerCells = 1.2f;
 constexpr size_t kTrianglesOfLimb = 4;
+constexpr float kThinLimb = 0.6f;       // of a cell: nothing would be left of it
 constexpr float kLimbToBreadth = 1.3f;  // a limb is longer than broad by so much
 
 void AppendVertices(const PackPrimitive& p, const PackMaterial& material, int layer,
@@ -187,7 +188,7 @@ PersonGeometry BuildPersonGeometry(const TourPack& pack, const PackMesh& mesh, c
 
 PersonGeometry ShadowGeometry(const PersonGeometry& of, float cell_m, size_t most_triangles) {
   most_triangles = std::min(most_triangles, of.indices.size() / 3);
-  const std::vector<Limb> limbs = LimbsOf(of, cell_m, most_triangles / 2 / kTrianglesOfLimb);
+  const std::vector<Limb> limbs = LimbsOf(of, kThinLimb * cell_m, most_triangles / 2 / kTrianglesOfLimb);
   const PersonGeometry others = Without(limbs, of);
   PersonGeometry out = WithinCells(others, cell_m);
   while (out.indices.size() / 3 + kTrianglesOfLimb * limbs.size() > most_triangles)

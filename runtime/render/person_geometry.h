@@ -33,8 +33,8 @@ struct PersonGeometry {
 PersonGeometry BuildPersonGeometry(const TourPack& pack, const PackMesh& mesh, const SurfacePlan& plan);
 
 // The shape alone: of all vertices within a cell of `cell_m` the one farthest from the figure's middle, so that hats
-// and hems keep their size, on the heaviest of its joints. Limbs thinner than a cell, of which nothing would be left,
-// are two strips that cross. Cells are larger where there were more than `most_triangles` else.
+// and hems keep their size, on the heaviest of its joints. Limbs much thinner than a cell, of which nothing would be
+// left, are two strips that cross. Cells are larger where there were more than `most_triangles` else.
 PersonGeometry ShadowGeometry(const PersonGeometry& of, float cell_m, size_t most_triangles);
 
 using ShadowLevels = std::array<PersonGeometry, 2>;  // for shadows near the eye, and farther off
