@@ -58,25 +58,25 @@ void AddOptions(CLI::App* app, CheckArguments* a) {
 }
 
 // Kinds one after the other, each with its advice once.
-void Print(const std::vector<Finding>& findings, size_t most_listed) {
+void Print(const std::vector<Finding>& findings, size_t most_listed, FILE* to) {
   for (size_t i = 0; i < findings.size();) {
     size_t end = i;
     size_t count = 0;
     for (; end < findings.size() && findings[end].code == findings[i].code; ++end) count += findings[end].Count();
     const FindingKind& kind = KindOf(findings[i].code);
-    std::printf("%d %s: %zu\n    %s\n", kind.code, kind.title, count, kind.advice);
+    std::fprintf(to, "%d %s: %zu\n    %s\n", kind.code, kind.title, count, kind.advice);
     for (size_t k = i; k < std::min(end, i + most_listed); ++k) {
       const Finding& f = findings[k];
-      std::printf("  %s at (%.2f, %.2f)%s%s: %s\n", SeverityName(f.severity), f.at_m.x, f.at_m.y,
-                  f.feature.empty() ? "" : " ", f.feature.c_str(), f.message.c_str());
+      std::fprintf(to, "  %s at (%.2f, %.2f)%s%s: %s\n", SeverityName(f.severity), f.at_m.x, f.at_m.y,
+                   f.feature.empty() ? "" : " ", f.feature.c_str(), f.message.c_str());
     }
     if (end - i > most_listed)
-      std::printf("  and %zu more (--json, --html or --most-listed shows them)\n", end - i - most_listed);
+      std::fprintf(to, "  and %zu more (--json, --html or --most-listed shows them)\n", end - i - most_listed);
     i = end;
   }
   const auto errors = static_cast<size_t>(
       std::count_if(findings.begin(), findings.end(), [](const Finding& f) { return f.severity == Severity::kError; }));
-  std::printf("%zu errors, %zu warnings\n", errors, findings.size() - errors);
+  std::fprintf(to, "%zu errors, %zu warnings\n", errors, findings.size() - errors);
 }
 
 Finding FaultOf(int code, const std::string& feature, const std::string& message) {
@@ -193,7 +193,8 @@ Error Run(const CheckArguments& a, int* status) {
   if (std::any_of(faults.begin(), faults.end(), elsewhere)) std::erase_if(findings, elsewhere);  // said already
   findings.insert(findings.end(), faults.begin(), faults.end());
   SortFindings(&findings);
-  Print(findings, a.most_listed);
+  const auto is_read = [](const std::filesystem::path& path) { return !path.empty() && IsStandardOutput(path); };
+  Print(findings, a.most_listed, is_read(a.json) || is_read(a.geojson) ? stderr : stdout);
   if (Error error = WriteFindings(a, file, findings)) return error;
   const bool errors =
       std::any_of(findings.begin(), findings.end(), [](const Finding& f) { return f.severity == Severity::kError; });

@@ -15,6 +15,7 @@
 #include "pipeline/footprint/rasterize_ground.h"
 #include "pipeline/io/geojson.h"
 #include "pipeline/io/scene_tiles.h"
+#include "runtime/base/file.h"
 #include "runtime/base/option_range.h"
 
 namespace flaneur {
@@ -80,16 +81,18 @@ Error Run(const FootprintsArguments& a) {
   if (Error error = ExtractFootprints(scene, a.options, &footprints, &stats, &warnings))
     return Fail(towns + ": " + error.message);
   for (const std::string& warning : warnings) std::fprintf(stderr, "flaneur: warning: %s\n", warning.c_str());
-  if (!footprints.reference_system.empty())
+  if (!footprints.reference_system.empty() && !IsStream(a.output))
     if (Error error = WriteLongitudeLatitude(LongitudeLatitudePath(a.output), footprints)) return error;
   if (Error error = WriteGeoJson(a.output, footprints, source.system)) return error;
-  std::printf("%s: %d obstacles from %d objects, %d triangles; %.1f m2 covered\n", a.output.c_str(), stats.obstacles,
-              stats.objects, stats.triangles, stats.covered_m2);
+  FILE* told = IsStandardOutput(a.output) ? stderr : stdout;
+  std::fprintf(told, "%s: %d obstacles from %d objects, %d triangles; %.1f m2 covered\n", a.output.c_str(),
+               stats.obstacles, stats.objects, stats.triangles, stats.covered_m2);
   for (const std::string& name : stats.open_shells)
-    std::printf("open shell: '%s' has walls that enclose nothing; look whether its obstacle is right\n", name.c_str());
+    std::fprintf(told, "open shell: '%s' has walls that enclose nothing; look whether its obstacle is right\n",
+                 name.c_str());
   if (!source.system.empty())
-    std::printf("the town is in %s; its obstacles are in %s, in metres\n", source.system.c_str(),
-                footprints.reference_system.c_str());
+    std::fprintf(told, "the town is in %s; its obstacles are in %s, in metres\n", source.system.c_str(),
+                 footprints.reference_system.c_str());
   if (a.map.empty()) return Ok();
   GroundRaster ground;
   GroundRasterOptions options;

@@ -204,6 +204,15 @@ Error ReadFile(const fs::path& path, std::vector<uint8_t>* bytes) { return ReadI
 Error ReadFile(const fs::path& path, FileBytes* bytes) { return ReadInto(path, bytes); }
 Error ReadTextFile(const fs::path& path, std::string* text) { return ReadInto(path, text); }
 
+bool IsStream(const fs::path& path) {
+  Target target;
+  return !FindTarget(path, &target) && target.as_it_is;
+}
+
+bool IsStandardOutput(const fs::path& path) {
+  return OpenFileOf(path) == "/proc/" + std::to_string(::getpid()) + "/fd/1";
+}
+
 Error CheckWritable(const fs::path& path) {
   Target target;
   if (Error e = FindTarget(path, &target)) return e;

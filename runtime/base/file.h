@@ -51,6 +51,11 @@ Error WriteFile(const std::filesystem::path& path, std::span<const uint8_t> byte
 Error WriteFile(const std::filesystem::path& path, std::span<const std::span<const uint8_t>> parts);
 Error WriteTextFile(const std::filesystem::path& path, std::string_view text);
 
+// Whether WriteFile adds to what is there and stays: a terminal, device or pipe, or a process's open file.
+bool IsStream(const std::filesystem::path& path);
+// Of these the one that std::printf writes to: /dev/stdout. Whoever reads it wants nothing else there.
+bool IsStandardOutput(const std::filesystem::path& path);
+
 // What WriteFile would complain of by now, told before long work instead of after it: a folder in the way, no
 // permission, a disk that is full already. Leaves nothing behind.
 Error CheckWritable(const std::filesystem::path& path);

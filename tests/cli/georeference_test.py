@@ -1,5 +1,7 @@
 """Towns on the map: longitudes and latitudes beside the local obstacles, of `flaneur footprints` and of a bake."""
 import json
+import os
+import pathlib
 import unittest
 
 from scenes import write_box_town, write_person
@@ -74,6 +76,26 @@ def cities(path, at, system, scale=(1.0, 1.0), turned=False):
 
 
 class Georeference(ProgramTest):
+    def test_whoever_reads_the_output_gets_nothing_else(self):
+        town = city(self.folder / "town.json", (500000, 5760000), "EPSG:25832")
+        read = run("flaneur", "footprints", town, "-o", "/dev/stdout")
+        self.assert_succeeds(read)
+        self.assertEqual(json.loads(read.stdout)["type"], "FeatureCollection")
+        self.assertIn("obstacles from", read.stderr)
+        pipe = self.folder / "pipe"
+        os.mkfifo(pipe)
+        reader = os.open(pipe, os.O_RDONLY | os.O_NONBLOCK)
+        try:
+            self.assert_succeeds(run("flaneur", "footprints", town, "-o", pipe))
+        finally:
+            os.close(reader)
+        self.assertEqual([p.name for p in self.folder.glob("*wgs84*")], [], "none beside a pipe or /dev/stdout")
+        self.assertEqual(list(pathlib.Path("/dev").glob("*wgs84*")), [])
+        self.assert_succeeds(self.footprints(town))
+        checked = run("flaneur", "check", self.folder / "obstacles.geojson", "--town", town, "--json", "/dev/stdout")
+        self.assertEqual(json.loads(checked.stdout), [])
+        self.assertIn("0 errors", checked.stderr)
+
     def footprints(self, *arguments):
         out = self.folder / "obstacles.geojson"
         return run("flaneur", "footprints", *arguments, "-o", out)
