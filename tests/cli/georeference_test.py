@@ -93,7 +93,7 @@ class Georeference(ProgramTest):
         self.assertEqual(list(pathlib.Path("/dev").glob("*wgs84*")), [])
         self.assert_succeeds(self.footprints(town))
         checked = run("flaneur", "check", self.folder / "obstacles.geojson", "--town", town, "--json", "/dev/stdout")
-        self.assertEqual(json.loads(checked.stdout), [])
+        self.assertEqual(json.loads(checked.stdout)["findings"], [])
         self.assertIn("0 errors", checked.stderr)
 
     def footprints(self, *arguments):
