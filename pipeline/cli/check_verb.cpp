@@ -193,8 +193,7 @@ Error Run(const CheckArguments& a, int* status) {
   if (std::any_of(faults.begin(), faults.end(), elsewhere)) std::erase_if(findings, elsewhere);  // said already
   findings.insert(findings.end(), faults.begin(), faults.end());
   SortFindings(&findings);
-  const auto is_read = [](const std::filesystem::path& path) { return !path.empty() && IsStandardOutput(path); };
-  Print(findings, a.most_listed, is_read(a.json) || is_read(a.geojson) ? stderr : stdout);
+  Print(findings, a.most_listed, IsStandardOutput(a.json) || IsStandardOutput(a.geojson) ? stderr : stdout);
   if (Error error = WriteFindings(a, file, findings)) return error;
   const bool errors =
       std::any_of(findings.begin(), findings.end(), [](const Finding& f) { return f.severity == Severity::kError; });

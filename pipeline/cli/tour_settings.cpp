@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <initializer_list>
+#include <optional>
 #include <set>
 
 #include "pipeline/cli/life_settings.h"
@@ -15,6 +16,12 @@ namespace flaneur {
 namespace {
 
 constexpr std::initializer_list<const char*> kAxes{"", "x", "y", "z", "-x", "-y", "-z"};
+
+void ReadYaw(TomlTable* table, std::optional<float>* yaw_rad) {
+  float told_rad = 0;
+  table->Angle("yaw", &told_rad, -360, 360);
+  if (table->Has("yaw_deg")) *yaw_rad = told_rad;
+}
 
 void ReadSource(TomlTable* table, SourceSettings* source) {
   table->File("file", &source->file);
@@ -226,9 +233,7 @@ void ReadPlace(TomlTable table, TourSettings* settings) {
   table.Choice("kind", &place.kind, {"door", "exit", "goal", "loiter", "spawn", "work", "play"});
   table.TownPoint("position_m", &place.position_m);
   table.Number("width_m", &place.width_m, 0.1, 1000);
-  float yaw_rad = 0;
-  table.Angle("yaw", &yaw_rad, -360, 360);
-  if (table.Has("yaw_deg")) place.yaw_rad = yaw_rad;
+  ReadYaw(&table, &place.yaw_rad);
   table.Text("clip", &place.clip);
   table.Texts("avatars", &place.avatars);
   table.Number("seat_m", &place.seat_m, 0, static_cast<double>(kMaxSeat_m));
@@ -267,9 +272,7 @@ void ReadPaintingSettings(TomlTable table, PaintingSettings* painting) {
 void ReadStop(TomlTable table, TourSettings* settings) {
   TourStop stop;
   table.TownPoint("position_m", &stop.position_m);
-  float yaw_rad = 0;
-  table.Angle("yaw", &yaw_rad, -360, 360);
-  if (table.Has("yaw_deg")) stop.yaw_rad = yaw_rad;
+  ReadYaw(&table, &stop.yaw_rad);
   table.Number("pause_s", &stop.pause_s, 0, 3600);
   table.Translations("caption", settings->language, &stop.captions);
   if (const auto own = stop.captions.find(settings->language); own != stop.captions.end()) {

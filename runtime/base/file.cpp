@@ -110,6 +110,12 @@ struct Target {
   return {};
 }
 
+// The number of that file where it is this process's own; -1: it is not.
+int OwnDescriptorOf(const fs::path& path) {
+  const std::string open_file = OpenFileOf(path), own = "/proc/" + std::to_string(::getpid()) + "/fd/";
+  return open_file.rfind(own, 0) == 0 ? std::atoi(open_file.c_str() + own.size()) : -1;
+}
+
 Error FindTarget(const fs::path& path, Target* target) {
   target->path = path;
   struct stat is {};
@@ -139,8 +145,7 @@ class NoSignalOfPipes {
 // One of our own stays where it has come to: what is printed after it neither overwrites it nor is overwritten.
 // A pipe is opened without waiting for a reader who may never come.
 [[gnu::cold]] int OpenAsItIs(const fs::path& path) {
-  const std::string open_file = OpenFileOf(path), own = "/proc/" + std::to_string(::getpid()) + "/fd/";
-  if (open_file.rfind(own, 0) == 0) return ::fcntl(std::atoi(open_file.c_str() + own.size()), F_DUPFD_CLOEXEC, 0);
+  if (const int own = OwnDescriptorOf(path); own >= 0) return ::fcntl(own, F_DUPFD_CLOEXEC, 0);
   const int fd = ::open(path.c_str(), O_WRONLY | O_APPEND | O_CLOEXEC | O_NOCTTY | O_NONBLOCK);
   if (fd >= 0) ::fcntl(fd, F_SETFL, O_APPEND);
   return fd;
@@ -209,9 +214,7 @@ bool IsStream(const fs::path& path) {
   return !FindTarget(path, &target) && target.as_it_is;
 }
 
-bool IsStandardOutput(const fs::path& path) {
-  return OpenFileOf(path) == "/proc/" + std::to_string(::getpid()) + "/fd/1";
-}
+bool IsStandardOutput(const fs::path& path) { return OwnDescriptorOf(path) == STDOUT_FILENO; }
 
 Error CheckWritable(const fs::path& path) {
   Target target;
