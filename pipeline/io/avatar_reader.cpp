@@ -17,6 +17,8 @@
 #include "pipeline/rig/clip_loop.h"
 #include "pipeline/rig/face.h"
 #include "pipeline/rig/motion_quality.h"
+#include "pipeline/rig/copy_clip.h"
+#include "pipeline/rig/plant_feet.h"
 #include "pipeline/rig/retarget.h"
 #include "runtime/base/array.h"
 #include "runtime/base/file.h"

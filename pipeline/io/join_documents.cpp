@@ -4,7 +4,7 @@
 #include <string>
 #include <utility>
 
-#include "pipeline/rig/retarget.h"
+#include "pipeline/rig/copy_clip.h"
 #include "runtime/base/array.h"
 #include "runtime/base/text.h"
 

@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "pipeline/core/rotation.h"
+#include "pipeline/rig/source_motion.h"
 #include "pipeline/rig/steps.h"
 #include "runtime/base/array.h"
 
@@ -16,7 +17,6 @@ constexpr float kShortestStride = 0.5f, kStrideStep = 0.025f;  // of the source'
 constexpr std::ptrdiff_t kEasedShare = 10;                     // of a cycle's keys, one of so many, hips take to sink
 // Of the leg's length: how much lower hips may be for their steps' sake, and than they are whatever the steps.
 constexpr float kSunk = 0.024f, kSunkMore = 0.01f;
-constexpr float kStraightest = 0.998f;        // of a leg's length: a knee never stretches further
 constexpr float kMaxFlatten_rad = 0.6f;       // that a standing foot may be turned to lie flat
 constexpr float kCurl_rad = 0.25f;            // of each finger joint of a hand whose source has no fingers
 constexpr float kStraightFinger_rad = 0.35f;  // fingers that rest more bent than this stay as they are
@@ -29,209 +29,6 @@ Quat Between(Quat a, Quat b, float t) { return Slerp(a, b, std::clamp(t, 0.0f, 1
 float Mean(const std::vector<float>& values) {
   return std::accumulate(values.begin(), values.end(), 0.0f) / static_cast<float>(values.size());
 }
-
-// How high a hip may be above its ankle, which is so far away on the level.
-float HighestHip(const RigLeg& leg, Vec3 off) {
-  const float reach = kStraightest * (leg.thigh_m + leg.shin_m);
-  return std::sqrt(std::max(reach * reach - off.x * off.x - off.z * off.z, 0.01f * reach * reach));
-}
-
-// The source's motion by body part, free of any skeleton; lengths in source units, upright, on the spot or travelling.
-struct Motion {
-  float step_s = 1.0f / 30;
-  bool loops = true;
-  std::vector<Pose> poses;
-  float speed = 0;  // source units a second along +Z, already taken out of the poses
-};
-
-class Source {
- public:
-  Source(const Rig& rig, const Clip& clip, bool walks) : rig_(rig), walks_(walks) {
-    const size_t joints = rig.joints.size();
-    motion_.step_s = clip.keys > 1 ? clip.duration_s / static_cast<float>(clip.keys - 1) : 1.0f / 30;
-    for (int k = 0; k < clip.keys; ++k) {
-      motion_.poses.push_back(PoseOf(rig.joints, clip.transforms.data() + static_cast<size_t>(k) * joints));
-    }
-    StandUp();
-    TakeTravel();
-    CloseLoop();
-    PutOnGround();
-    FindSpeed();
-  }
-
-  const Motion& motion() const { return motion_; }
-  const std::vector<bool>& stands(size_t side) const { return stands_[side]; }
-  const Rig& rig() const { return rig_; }
-  float slide() const { return slide_; }
-  bool stiff() const { return walks_ && !BendsKnees(rig_); }
-
-  // How far the joint has turned from its reference.
-  Quat Turned(size_t key, int joint) const {
-    return Product(At(motion_.poses[key].rotations, joint), Conjugate(At(rig_.reference.rotations, joint)));
-  }
-
-  Vec3 Place(size_t key, int joint) const { return At(motion_.poses[key].positions, joint); }
-  Vec3 Ankle(size_t key, size_t side) const { return PlaceOf(rig_.legs[side].ankle, motion_.poses[key]); }
-  // By how much the hips would be lower, a key, if all feet that stand stood on the ground.
-  std::vector<float> Sinks() const {
-    std::vector<float> lower(motion_.poses.size(), 0.0f);
-    for (size_t k = 0; k < lower.size(); ++k) {
-      for (const size_t side : {kLeft, kRight}) {
-        if (!stands_[side][k]) continue;
-        const RigLeg& leg = rig_.legs[side];
-        float low = 1e30f;
-        for (const SolePoint& point : leg.sole) low = std::min(low, PlaceOf(point, motion_.poses[k]).y);
-        const Vec3 off = Place(k, leg.upper) - Ankle(k, side);
-        lower[k] = std::max(lower[k], off.y + low - HighestHip(leg, off));
-      }
-    }
-    return lower;
-  }
-
-  Vec3 Middle(size_t key) const {
-    return (Place(key, rig_.legs[kLeft].upper) + Place(key, rig_.legs[kRight].upper)) * 0.5f;
-  }
-
- private:
-  // By quarters about the level axes, so that who bends or sits is not straightened; fully about the vertical.
-  void StandUp() {
-    Vec3 up, forward;
-    for (const Pose& pose : motion_.poses) {
-      Vec3 u, f;
-      if (!FindStance(rig_.humanoid, pose.positions, &u, &f)) continue;
-      up = up + u, forward = forward + f;
-    }
-    const Quat turn = TurnToFront(Normalized(up), Normalized(forward), 0);
-    for (Pose& pose : motion_.poses) TurnPose(turn, &pose);
-  }
-
-  void TakeTravel() {
-    const size_t last = motion_.poses.size() - 1;
-    if (last == 0) return;
-    Vec3 travel = Middle(last) - Middle(0);
-    travel.y = 0;
-    if (Length(travel) > 0.15f * rig_.leg_m * static_cast<float>(last) * motion_.step_s) {
-      const Quat ahead = TurnAbout({0, 1, 0}, -std::atan2(travel.x, travel.z));
-      if (std::abs(std::atan2(travel.x, travel.z)) < 0.8f) {  // else it goes sideways or backwards, and is let
-        for (Pose& pose : motion_.poses) TurnPose(ahead, &pose);
-        travel = Rotated(ahead, travel);
-      }
-      motion_.speed = travel.z / (static_cast<float>(last) * motion_.step_s);
-    } else {
-      travel = {};
-    }
-    Vec3 mean;
-    for (size_t k = 0; k <= last; ++k) {
-      const float share = static_cast<float>(k) / static_cast<float>(last);
-      Shift(travel * -share, &motion_.poses[k]);
-      mean = mean + Middle(k) * (1 / static_cast<float>(last + 1));
-    }
-    for (Pose& pose : motion_.poses) Shift({-mean.x, 0, -mean.z}, &pose);
-  }
-
-  float Gap(const Pose& a, const Pose& b) const {
-    float sum = 0;
-    for (size_t j = 0; j < rig_.joints.size(); ++j) sum += Length(a.positions[j] - b.positions[j]);
-    return sum / static_cast<float>(rig_.joints.size());
-  }
-
-  // The last pose becomes the first: it nearly is, or just one more is missing, or the end is led over into it.
-  void CloseLoop() {
-    auto& poses = motion_.poses;
-    if (poses.size() < 3) return;
-    float step = 0;
-    for (size_t k = 1; k < poses.size(); ++k)
-      step += Gap(poses[k - 1], poses[k]) / static_cast<float>(poses.size() - 1);
-    const float gap = Gap(poses.front(), poses.back());
-    if (gap > 0.5f * step && gap <= 2 * step) {
-      poses.push_back(poses.front());
-    } else if (gap > 2 * step) {
-      const size_t blended = std::max<size_t>(1, poses.size() / 4);
-      for (size_t i = 0; i < blended; ++i) {
-        Pose& pose = poses[poses.size() - blended + i];
-        const float t = static_cast<float>(i + 1) / static_cast<float>(blended);
-        const float share = t * t * (3 - 2 * t);
-        for (size_t j = 0; j < rig_.joints.size(); ++j) {
-          pose.positions[j] = pose.positions[j] * (1 - share) + poses.front().positions[j] * share;
-          pose.rotations[j] = Slerp(pose.rotations[j], poses.front().rotations[j], share);
-        }
-      }
-    }
-    poses.back() = poses.front();
-  }
-
-  static void Shift(Vec3 by, Pose* pose) {
-    for (Vec3& p : pose->positions) p = p + by;
-  }
-
-  Soles SolesOf(size_t side) const {
-    Soles soles;
-    for (const Pose& pose : motion_.poses) {
-      std::vector<Vec3>& points = soles.emplace_back();
-      for (const SolePoint& point : rig_.legs[side].sole) points.push_back(PlaceOf(point, pose));
-    }
-    return soles;
-  }
-
-  void PutOnGround() {
-    std::vector<float> lowest;
-    for (const Pose& pose : motion_.poses) {
-      float low = 1e30f;
-      for (const RigLeg& leg : rig_.legs) {
-        for (const SolePoint& point : leg.sole) low = std::min(low, PlaceOf(point, pose).y);
-      }
-      lowest.push_back(low);
-    }
-    // Legs of one bone cannot bend, so clips for them hop; walking, each pose stands.
-    const float ground = GroundUnder(lowest, rig_.leg_m, walks_);
-    for (size_t k = 0; k < lowest.size(); ++k) Shift({0, stiff() ? -lowest[k] : -ground, 0}, &motion_.poses[k]);
-  }
-
-  void FindSpeed() {
-    motion_.loops = motion_.poses.size() > 2;
-    if (stiff()) FindStiffSteps();
-    else FindSteps();
-    for (std::vector<bool>& stands : stands_) {
-      if (motion_.loops) stands.push_back(stands.front());  // the last key is the first
-    }
-  }
-
-  void FindSteps() {
-    const auto left = SolesOf(kLeft), right = SolesOf(kRight);
-    if (motion_.speed == 0) motion_.speed = SpeedOfSoles(left, right, motion_.step_s, rig_.leg_m);
-    std::array<Soles, 2> soles{left, right};
-    for (const size_t side : {kLeft, kRight}) {
-      if (motion_.loops) soles[side].pop_back();
-      stands_[side] = FindStance(soles[side], motion_.speed, motion_.step_s, rig_.leg_m, motion_.loops);
-    }
-    slide_ = SlideOfSoles(left, right, motion_.step_s, rig_.leg_m, motion_.speed);
-    StandSomewhere(soles[kLeft], soles[kRight], rig_.leg_m, walks_ && motion_.speed != 0, &stands_[kLeft],
-                   &stands_[kRight]);
-  }
-
-  // Both legs of one bone pass the ground at one height: that which goes back stands.
-  void FindStiffSteps() {
-    float way = 0, keys = 0;
-    for (size_t k = 0; k + 1 < motion_.poses.size(); ++k) {
-      for (const size_t side : {kLeft, kRight}) {
-        const float back = Ankle(k, side).z - Ankle(k + 1, side).z;
-        const float other = Ankle(k, 1 - side).z - Ankle(k + 1, 1 - side).z;
-        stands_[side].push_back(back >= other);
-        if (back >= other) way += back, keys += 1;
-      }
-    }
-    if (motion_.speed == 0 && keys > 0) motion_.speed = way / (keys * motion_.step_s);
-    if (!motion_.loops) stands_[kLeft].push_back(true), stands_[kRight].push_back(true);
-    const Soles level(stands_[kLeft].size(), {Vec3{}});
-    StandSomewhere(level, level, rig_.leg_m, true, &stands_[kLeft], &stands_[kRight]);
-  }
-
-  const Rig& rig_;
-  bool walks_;
-  float slide_ = 0;
-  Motion motion_;
-  std::array<std::vector<bool>, 2> stands_;
-};
 
 // What is decided about the target's joints in one key.
 struct Wanted {
@@ -711,7 +508,7 @@ class Retargeter {
     return clip;
   }
 
-  const Source source_;
+  const SourceMotion source_;
   const Rig &s_, &t_;
   size_t keys_;
   float scale_;
@@ -725,120 +522,10 @@ class Retargeter {
   std::vector<Pose> poses_;
 };
 
-std::map<std::string, int> ByName(const std::vector<Joint>& joints) {
-  std::map<std::string, int> by_name;
-  for (int j = 0; j < Count(joints); ++j) by_name.try_emplace(BareName(At(joints, j).name), j);
-  return by_name;
-}
-
-constexpr float kSlides = 0.15f;  // of the walking speed: what soles may slide before feet are set anew
-constexpr float kPlanted = 0.5f;  // of the slide before, that may be left then
-// Legs, hips, what they hang on, and limbs that hang on neither: the joints that PlantFeet moves.
-std::vector<bool> SteppingJoints(const Rig& rig) {
-  std::vector<bool> above_legs(rig.joints.size(), false), on_hips(rig.joints.size(), false);
-  for (const RigLeg& leg : rig.legs) {
-    for (const int from : {leg.upper, leg.lower, leg.foot, leg.toes}) {
-      for (int a = from; a >= 0; a = At(rig.joints, a).parent) At(above_legs, a) = true;
-    }
-  }
-  for (size_t j = 0; j < on_hips.size(); ++j) {
-    const int parent = rig.joints[j].parent;
-    on_hips[j] = parent >= 0 && (parent == rig.humanoid.hips || At(on_hips, parent));
-  }
-  std::vector<bool> stepping(rig.joints.size());
-  for (size_t j = 0; j < stepping.size(); ++j) stepping[j] = above_legs[j] || !on_hips[j];
-  return stepping;
-}
-
-constexpr float kSameTurn_rad = 0.09f;  // between the rests of two joints that are the same
-constexpr float kSameLength = 0.03f;    // of the skeleton's mean bone, how much one may be off
-constexpr float kMostJoints = 0.9f;     // of the target's, that the source must have
-
 }  // namespace
-
-std::string BareName(const std::string& name) {
-  const size_t space = name.find_last_of("|:");
-  return space == std::string::npos || space + 1 == name.size() ? name : name.substr(space + 1);
-}
-
-bool SameSkeleton(const std::vector<Joint>& source, const std::vector<Joint>& target, float* scale) {
-  const std::map<std::string, int> by_name = ByName(source);
-  std::vector<float> ratios, off_rad;
-  std::vector<std::pair<Vec3, Vec3>> bones;
-  for (const Joint& joint : target) {
-    const auto found = by_name.find(BareName(joint.name));
-    if (found == by_name.end()) continue;
-    const Joint& other = At(source, found->second);
-    const bool rooted = joint.parent < 0 || other.parent < 0;
-    if (!rooted && BareName(At(target, joint.parent).name) != BareName(At(source, other.parent).name)) continue;
-    if (!rooted) off_rad.push_back(AngleOf(Product(Conjugate(joint.rest.rotation), other.rest.rotation)));
-    if (!rooted) bones.emplace_back(joint.rest.translation, other.rest.translation);
-    if (rooted) off_rad.push_back(0);
-  }
-  if (static_cast<float>(off_rad.size()) < kMostJoints * static_cast<float>(target.size())) return false;
-  float own = 0, theirs = 0;
-  for (const auto& [a, b] : bones) own += Length(a), theirs += Length(b);
-  if (!(own > 0) || !(theirs > 0)) return false;
-  *scale = own / theirs;
-  const float mean = own / static_cast<float>(bones.size());
-  for (const auto& [a, b] : bones) {
-    if (Length(a - b * *scale) > kSameLength * (Length(a) + mean)) return false;
-  }
-  return std::all_of(off_rad.begin(), off_rad.end(), [](float off) { return off < kSameTurn_rad; });
-}
-
-int CopyClip(const std::vector<Joint>& source, const Clip& clip, const std::vector<Joint>& target, Clip* copied) {
-  const std::map<std::string, int> by_name = ByName(source);
-  std::vector<int> from(target.size(), -1);
-  float own = 0, theirs = 0;
-  int found = 0;
-  for (size_t j = 0; j < target.size(); ++j) {
-    const auto known = by_name.find(BareName(target[j].name));
-    if (known == by_name.end()) continue;
-    from[j] = known->second;
-    ++found;
-    own += Length(target[j].rest.translation), theirs += Length(At(source, from[j]).rest.translation);
-  }
-  const float scale = own > 0 && theirs > 0 ? own / theirs : 1;
-  *copied = {clip.name, clip.duration_s, clip.keys, {}};
-  for (int k = 0; k < clip.keys; ++k) {
-    for (size_t j = 0; j < target.size(); ++j) {
-      Transform t = target[j].rest;
-      if (from[j] >= 0) {
-        const Transform& rest = At(source, from[j]).rest;
-        const Transform& now = clip.transforms[static_cast<size_t>(k) * source.size() + static_cast<size_t>(from[j])];
-        t.rotation = Normalized(Product(t.rotation, Product(Conjugate(rest.rotation), now.rotation)));
-        const Quat turned = Product(target[j].rest.rotation, Conjugate(rest.rotation));
-        t.translation = t.translation + Rotated(turned, now.translation - rest.translation) * scale;
-        t.scale = now.scale;
-      }
-      copied->transforms.push_back(t);
-    }
-  }
-  return found;
-}
 
 Retargeted Retarget(const Rig& source, const Clip& clip, const Rig& target, const RetargetOptions& options) {
   return Retargeter(source, clip, target, options).Make(clip);
-}
-
-float SlideOfWalk(const Rig& rig, const Clip& walk) { return Retarget(rig, walk, rig, {.walks = true}).source_slide; }
-
-bool PlantFeet(const Rig& rig, Retargeted* walk) {
-  if (rig.humanoid.by_shape || !BendsKnees(rig) || walk->clip.keys < 3) return false;
-  Retargeted planted = Retarget(rig, walk->clip, rig, {.walks = true});
-  if (planted.source_slide < kSlides || !(planted.walk_speed_mps > 0)) return false;
-  if (SlideOfWalk(rig, planted.clip) > kPlanted * planted.source_slide) return false;
-  const std::vector<bool> stepping = SteppingJoints(rig);
-  for (size_t i = 0; i < planted.clip.transforms.size(); ++i) {
-    const size_t joint = i % rig.joints.size(), key = i / rig.joints.size();
-    const size_t last = static_cast<size_t>(walk->clip.keys) - 1;
-    if (!stepping[joint])
-      planted.clip.transforms[i] = walk->clip.transforms[std::min(key, last) * rig.joints.size() + joint];
-  }
-  planted.clip.name = walk->clip.name;
-  *walk = std::move(planted);
-  return true;
 }
 
 }  // namespace flaneur

@@ -316,6 +316,11 @@ Quat LegFrame(Vec3 along, Vec3 front) {
   return Normalized(QuatFromBasis(Cross(y, z), y, z));
 }
 
+float HighestHip(const RigLeg& leg, Vec3 off) {
+  const float reach = kStraightest * (leg.thigh_m + leg.shin_m);
+  return std::sqrt(std::max(reach * reach - off.x * off.x - off.z * off.z, 0.01f * reach * reach));
+}
+
 bool BendsKnees(const Rig& rig) { return rig.legs[kLeft].shin_m > 0 && rig.legs[kRight].shin_m > 0; }
 
 bool MakeRig(const Avatar& person, const std::vector<NamedBone>& told, Rig* rig, std::string* why) {

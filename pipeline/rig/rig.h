@@ -48,6 +48,11 @@ struct RigLeg {
   std::vector<SolePoint> tips;  // of the foot, that come lowest where it is pitched far: a boot's cap, its heel's back
 };
 
+inline constexpr float kStraightest = 0.998f;  // of a leg's length: a knee never stretches further
+
+// How high a hip may be above its ankle, which is so far away on the level.
+float HighestHip(const RigLeg& leg, Vec3 off);
+
 // Directions and turns of one arm in the reference pose. A limb's frame is the turn that brings the like limb of a
 // person in T-pose, palms down, to it.
 struct RigArm {
