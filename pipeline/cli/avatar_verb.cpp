@@ -37,8 +37,10 @@ struct AvatarArguments {
 void AddFiles(CLI::App* app, AvatarArguments* a) {
   app->add_option("IN", a->inputs, "The people: files with a skin, of any format that docs/avatars.md names")
       ->required();
-  app->add_option("-o,--output", a->output,
-                  "The glTF binary to write; of several people a folder for one each, with a contact sheet index.html");
+  app->add_option(
+      "-o,--output", a->output,
+      "The glTF binary to write; of several people, or without an ending, a folder for one each, with a contact "
+      "sheet index.html");
   app->add_option("--json", a->json, "Also write the levels' numbers of one person to this JSON file");
   app->add_option("--sheet", a->sheet, "Also draw one person's levels and clips into this PNG");
   app->add_flag("--list", a->list, "Say what the files hold: nodes, bones, clips, up and facing; write nothing");
@@ -205,10 +207,15 @@ int List(const std::vector<fs::path>& inputs) {
   return status;
 }
 
+// A name without an ending is a folder's, unless a device or pipe has it.
+bool IsFolder(const fs::path& output) {
+  return fs::is_directory(output) || (!output.has_extension() && !fs::exists(output));
+}
+
 // One file a person, and a page of all of them; who cannot be read keeps nobody else from it.
 int MakeAll(const AvatarArguments& all) {
   if (!all.json.empty() || !all.sheet.empty())
-    return Report(Fail("--json and --sheet are for one person; a folder has a sheet of all"));
+    return Report(Fail("--json and --sheet are for one person and -o FILE.glb; a folder has a sheet of all"));
   std::error_code ec;
   fs::create_directories(all.output, ec);
   if (ec) return Report(Fail(all.output.string() + ": cannot be made: " + ec.message()));
@@ -243,8 +250,8 @@ int RunAvatar(const Arguments& args) {
   if (const int status = ParseArguments(&app, args); status >= 0) return status;
   if (arguments.list) return List(arguments.inputs);
   if (arguments.output.empty()) return Report(Fail("-o is missing: say where to write"));
-  const bool folder = arguments.inputs.size() > 1 || fs::is_directory(arguments.output);
-  return folder ? MakeAll(arguments) : MakeOne(arguments, arguments.inputs[0], nullptr);
+  return arguments.inputs.size() > 1 || IsFolder(arguments.output) ? MakeAll(arguments)
+                                                                   : MakeOne(arguments, arguments.inputs[0], nullptr);
 }
 
 }  // namespace flaneur

@@ -8,7 +8,7 @@
 
 namespace flaneur {
 
-// A line for each text with letters that no font shows, or only one of this machine that the player does not bring
+// A line for each language with letters that no font shows, or only one of this machine that the player does not bring
 // along; and for each stop with a sound but no caption in that language, for who cannot hear it.
 std::vector<std::string> WarningsOfWords(const TourData& tour, Fonts* fonts);
 

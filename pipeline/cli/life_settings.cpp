@@ -30,7 +30,7 @@ void ReadSmoke(TomlTable table, TourData* tour) {
   Smoke smoke;
   std::vector<float> position_m;
   table.Numbers("position_m", &position_m, -kMostPlace_m, kMostPlace_m);
-  table.Number("width_m", &smoke.width_m, static_cast<double>(kLeastSmoke_m), static_cast<double>(kMostSmoke_m));
+  table.Number("width_m", &smoke.width_m, kLeastSmoke_m, kMostSmoke_m);
   table.Number("density", &smoke.density, 0, 1);
   if (position_m.size() == 3) smoke.position_m = {position_m[0], position_m[1], position_m[2]};
   else table.Refuse("a [[smoke]] needs position_m = [x, y, z], z in the town's own height");

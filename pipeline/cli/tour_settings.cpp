@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <initializer_list>
+#include <iterator>
 #include <optional>
 #include <set>
+#include <utility>
 
 #include "pipeline/cli/life_settings.h"
 #include "runtime/base/file.h"
@@ -351,8 +353,16 @@ void CheckWhole(TomlContext* context, const TourSettings& s) {
       refuse("a [[flock]] is of '" + OneLine(flock.avatar) + "', but no [[avatar]] has that name");
   }
   const ControlSettings& c = s.control;
-  if (!(c.r_personal_m < c.r_high_m && c.r_high_m < c.r_unimportant_m && c.r_unimportant_m < c.r_far_m)) {
-    refuse("control: r_personal_m < r_high_m < r_unimportant_m < r_far_m must hold");
+  const std::pair<const char*, float> radii[] = {{"r_personal_m", c.r_personal_m},
+                                                 {"r_high_m", c.r_high_m},
+                                                 {"r_unimportant_m", c.r_unimportant_m},
+                                                 {"r_far_m", c.r_far_m}};
+  for (size_t i = 0; i + 1 < std::size(radii); ++i) {
+    const auto& [inner, inner_m] = radii[i];
+    const auto& [outer, outer_m] = radii[i + 1];
+    if (!(inner_m < outer_m))
+      refuse(std::string("control: ") + inner + " (" + Compact(static_cast<double>(inner_m)) + ") must be below " +
+             outer + " (" + Compact(static_cast<double>(outer_m)) + ")");
   }
   if (s.crowd.preferred_speed_mps > s.crowd.top_speed_mps) {
     refuse("crowd: preferred_speed_mps must not be above top_speed_mps");

@@ -11,13 +11,14 @@
 #include "pipeline/io/choose_clips.h"
 #include "pipeline/io/gltf.h"
 #include "pipeline/io/gltf_document.h"
+#include "pipeline/io/gltf_names.h"
 #include "pipeline/io/gltf_pose.h"
 #include "pipeline/io/join_documents.h"
 #include "pipeline/io/motion_reader.h"
 #include "pipeline/rig/clip_loop.h"
+#include "pipeline/rig/copy_clip.h"
 #include "pipeline/rig/face.h"
 #include "pipeline/rig/motion_quality.h"
-#include "pipeline/rig/copy_clip.h"
 #include "pipeline/rig/plant_feet.h"
 #include "pipeline/rig/retarget.h"
 #include "runtime/base/array.h"
@@ -30,8 +31,6 @@ namespace {
 constexpr float kLongestLoop_s = 12;  // of a walk, and of any clip from another file
 constexpr float kLongestOwn_s = 59;   // of any other clip of the figure's own
 constexpr float kMostSlide = 0.15f;   // of the walking speed: what soles may slide before a clip is not taken as it is
-
-std::string Quoted(const std::string& name) { return std::string("'").append(OneLine(name)) + "'"; }
 
 // Nodes to draw: in the scene and not beneath a hidden one.
 Error VisibleNodes(const GltfDocument& document, const ReadAvatarOptions& options, std::vector<bool>* visible) {

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "pipeline/core/name_words.h"
+#include "pipeline/io/gltf_names.h"
 #include "runtime/base/array.h"
 #include "runtime/base/text.h"
 
@@ -15,8 +16,6 @@ namespace flaneur {
 namespace {
 
 constexpr const char* kShipped = "flaneur";  // as a file: the clips that come with the program
-
-std::string Quoted(const std::string& name) { return std::string("'").append(OneLine(name)) + "'"; }
 
 std::string Lower(std::string text) {
   for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));

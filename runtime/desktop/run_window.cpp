@@ -31,14 +31,14 @@ void TellOf(const char* what) {
 // What a visit looks like from inside, for who looks for faults.
 std::string Figures(const std::string& name, double frames_per_s, const Simulation& s,
                     const FrameStatistics& statistics) {
-  char title[200];
   const char* tour = s.visitor.tour.over                                ? " - tour over"
                      : s.visitor.tour.paused && HasTour(s.visitor.tour) ? " - tour paused"
                                                                         : "";
-  std::snprintf(title, sizeof title, "%s%s - %.0f frames/s at %.0f %%, %zu people, %lld triangles", name.c_str(), tour,
-                frames_per_s, 100 * static_cast<double>(statistics.resolution_scale), s.town.crowd.size(),
+  char figures[120];
+  std::snprintf(figures, sizeof figures, " - %.0f frames/s at %.0f %%, %zu people, %lld triangles", frames_per_s,
+                100 * static_cast<double>(statistics.resolution_scale), s.town.crowd.size(),
                 static_cast<long long>(statistics.people_triangles + statistics.town_triangles));
-  return title;
+  return name + tour + figures;
 }
 
 // Nothing can be tidied up in here: what the visitor changed was saved when the pages closed.

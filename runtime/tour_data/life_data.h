@@ -20,7 +20,7 @@ struct Flock {
 };
 
 inline constexpr size_t kMaxSmokes = 1000;
-inline constexpr float kLeastSmoke_m = 0.1f, kMostSmoke_m = 5;
+inline constexpr double kLeastSmoke_m = 0.1, kMostSmoke_m = 5;
 
 // What rises over a chimney and drifts with the wind.
 struct Smoke {

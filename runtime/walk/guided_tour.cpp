@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "runtime/crowd/fast_math.h"
 #include "runtime/walk/start.h"
@@ -255,29 +256,63 @@ Error CutTour(const TourCut& cut, GuidedTour* t) {
   return Ok();
 }
 
+namespace {
+
+int StretchOf(const Walkable& w, Vec2 p) {
+  const int cell = FreeCellFor(w, p);
+  return cell < 0 ? -1 : w.component[static_cast<size_t>(cell)];
+}
+
+// The stretch of ground that most of the stops are on; of equals the one that comes first; -1: none is on any.
+int StretchOfMost(const std::vector<TourStop>& stops, const Walkable& w) {
+  std::map<int, int> count;
+  for (const TourStop& stop : stops) ++count[StretchOf(w, stop.position_m)];
+  int best = -1;
+  for (const TourStop& stop : stops) {
+    const int stretch = StretchOf(w, stop.position_m);
+    if (stretch >= 0 && (best < 0 || count[stretch] > count[best])) best = stretch;
+  }
+  return best;
+}
+
+// "2", "2 and 3", "2, 3 and 5".
+std::string Listed(const std::vector<size_t>& numbers) {
+  std::string list;
+  for (size_t i = 0; i < numbers.size(); ++i)
+    list += (i == 0 ? "" : i + 1 < numbers.size() ? ", " : " and ") + std::to_string(numbers[i]);
+  return list;
+}
+
+}  // namespace
+
 void PlaceStops(const VisitorInTown& v) {
-  if (v.visitor.tour.stops.empty()) return;
   const Walkable& w = v.town.walkable;
-  int of_first = -1;
+  const std::vector<TourStop>& stops = v.visitor.tour.stops;
+  if (stops.empty()) return;
+  const int stretch = StretchOfMost(stops, w);
   std::vector<TourStop> kept;
-  for (size_t k = 0; k < v.visitor.tour.stops.size(); ++k) {
-    TourStop stop = v.visitor.tour.stops[k];
-    const bool free = IsFree(w, stop.position_m);
-    const int cell = FreeCellFor(w, stop.position_m);
-    const int component = cell < 0 ? -1 : w.component[static_cast<size_t>(cell)];
-    if (of_first < 0) of_first = component;
-    const std::string name = "stop " + std::to_string(k + 1);
-    if (cell < 0 || component != of_first) {
-      v.town.warnings.push_back(name + " cannot be reached; the tour passes it by");
+  std::vector<size_t> left_out, moved;
+  for (size_t k = 0; k < stops.size(); ++k) {
+    TourStop stop = stops[k];
+    if (stretch < 0 || StretchOf(w, stop.position_m) != stretch) {
+      left_out.push_back(k + 1);
       continue;
     }
-    if (!free) {
-      v.town.warnings.push_back(name + " is not on free ground; the tour passes near it");
-      stop.position_m = CellCenter(w, cell);
+    if (!IsFree(w, stop.position_m)) {
+      moved.push_back(k + 1);
+      stop.position_m = CellCenter(w, FreeCellFor(w, stop.position_m));
     }
     if (!stop.yaw_rad) stop.yaw_rad = OpenestView_rad(w, stop.position_m);
     kept.push_back(std::move(stop));
   }
+  if (moved.size() == 1)
+    v.town.warnings.push_back("stop " + Listed(moved) + " is not on free ground; the tour passes near it");
+  if (moved.size() > 1)
+    v.town.warnings.push_back("stops " + Listed(moved) + " are not on free ground; the tour passes near them");
+  if (left_out.size() == 1)
+    v.town.warnings.push_back("stop " + Listed(left_out) + " cannot be reached; the tour passes it by");
+  if (left_out.size() > 1)
+    v.town.warnings.push_back("stops " + Listed(left_out) + " cannot be reached; the tour passes them by");
   TakeStops(kept, std::string(v.visitor.tour.languages.front()), &v.visitor.tour);
 }
 

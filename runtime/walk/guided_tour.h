@@ -82,8 +82,8 @@ Error CutTour(const TourCut& cut, GuidedTour* tour);
 // Words of a stop that has none in this language are in the tour's own.
 void SetLanguage(const std::string& language, GuidedTour* tour);
 
-// Stops that nobody can stand at move beside the wall they are in, those that cannot be reached are left out; both with
-// a warning.
+// Stops that nobody can stand at move beside the wall they are in, those that cannot be reached from where most are, are
+// left out; one warning for each of the two.
 void PlaceStops(const VisitorInTown& v);
 // The first stage, or the end of it where the tour is cut, from where the visitor stands.
 void BeginTour(const VisitorInTown& v);

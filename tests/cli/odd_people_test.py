@@ -33,6 +33,13 @@ class OddPeople(ProgramTest):
         self.assertEqual(self.triangles(facts)[0], 704)
         self.assertEqual(facts["joints"], 3)
 
+    def test_a_name_without_an_ending_is_a_folder(self):
+        person = OddPerson().write(self.folder / "odd.gltf")
+        self.assert_succeeds(run("flaneur", "avatar", person, "-o", self.folder / "people"))
+        self.assertEqual({file.name for file in (self.folder / "people").iterdir()}, {"odd.glb", "odd.png", "index.html"})
+        self.assert_fails(run("flaneur", "avatar", person, "-o", self.folder / "others", "--sheet", self.folder / "s.png"), "--sheet", "FILE.glb")
+        self.assertFalse((self.folder / "others").exists())
+
     def test_without_uvs(self):
         person = OddPerson()
         person.uvs, person.image = [], "data:image/png;base64,iVBORw0KGgoAAAANSUhEUgAAAAEAAAABCAYAAAAfFcSJAAAADUlEQVR42mNkYPhfDwAChwGA60e6kgAAAABJRU5ErkJggg=="

@@ -36,9 +36,29 @@ TEST(CheckWords, NamesLettersThatNoFontShowsAndWhereTheyStand) {
   Fonts fonts;
   const auto warnings = WarningsOfWords(tour, &fonts);
   ASSERT_EQ(warnings.size(), 1u);
-  EXPECT_TRUE(Says(warnings, "stop 2's caption (ja)")) << warnings[0];
+  EXPECT_TRUE(Says(warnings, "'ja'")) << warnings[0];
+  EXPECT_TRUE(Says(warnings, "(stop 2)")) << warnings[0];
   EXPECT_TRUE(Says(warnings, "場")) << warnings[0];
   EXPECT_TRUE(Says(warnings, "boxes")) << warnings[0];
+}
+
+TEST(CheckWords, SpeaksOfALanguageOnceAndOfAllThatVisitorsRead) {
+  TourData tour = Tour();
+  tour.titles["ja"] = "市場";
+  for (TourStop& stop : tour.path) stop.captions["ja"] = "市場";
+  tour.hotspots.resize(1);
+  tour.hotspots[0].titles["ko"] = "시장";
+  tour.streets = {{{{"zh", "市"}}, {}}};
+  tour.thanks["th"] = "ตลาด";
+  tour.photo.lines["hi"] = "बाज़ार";
+  Fonts fonts;
+  const auto warnings = WarningsOfWords(tour, &fonts);
+  ASSERT_EQ(warnings.size(), 5u);
+  EXPECT_TRUE(Says(warnings, "(the title, stop 1, stop 2)"));
+  EXPECT_TRUE(Says(warnings, "(hotspot 1)"));
+  EXPECT_TRUE(Says(warnings, "(a street's name)"));
+  EXPECT_TRUE(Says(warnings, "(the thanks)"));
+  EXPECT_TRUE(Says(warnings, "(the photo's line)"));
 }
 
 TEST(CheckWords, NamesTheFontThatMustBeThereWhereTheTourIsPlayed) {

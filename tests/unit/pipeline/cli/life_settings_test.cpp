@@ -59,6 +59,7 @@ TEST_F(LifeSettings, WhatIsMissingOrWrongOfSmokeIsSaidInOneLine) {
   EXPECT_TRUE(Refuses("[[smoke]]\n", "a [[smoke]] needs position_m = [x, y, z]"));
   EXPECT_TRUE(Refuses("[[smoke]]\nposition_m = [1, 2]\n", "a [[smoke]] needs position_m = [x, y, z]"));
   EXPECT_TRUE(Refuses("[[smoke]]\nposition_m = [1, 2, 3]\nwidth_m = 0\n", "smoke.width_m"));
+  EXPECT_EQ(Read("[[smoke]]\nposition_m = [1, 2, 3]\nwidth_m = 0.1\n"), "") << "the least that the message names";
   EXPECT_TRUE(Refuses("[[smoke]]\nposition_m = [1, 2, 3]\ncolor = 2\n", "unknown key 'color' in [smoke]"));
   EXPECT_TRUE(Refuses("[wind]\nspeed_mps = -1\n", "wind.speed_mps"));
 }

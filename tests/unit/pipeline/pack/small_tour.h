@@ -149,7 +149,7 @@ inline TourParts SmallTour() {
   parts.sound_places = {{SoundKind::kWater, {1, 1}, 0.5f, 12, 0.75f, -1}, {SoundKind::kLoop, {2, 2}, 1, 30, 1, 1}};
   parts.photo = {{{"de", "Grüße"}}, "https://example.org/{file}"};
   parts.flocks = {{"made", {4, 5}, 3.5f, 9, 2, "fly"}};
-  parts.smokes = {{{1, -2, 14}, 0.75f, 0.25f}};
+  parts.smokes = {{{1, -2, 14}, 0.1f, 0.25f}};  // as narrow as may be
   parts.wind = {1.5f, 2.5f};
   parts.guide = parts.avatars[0].levels.avatar.name;
   parts.title_page = {{'J', 'F', 'I', 'F'}, {'P', 'N', 'G'}, {0, 0.2f, 1}};

@@ -117,7 +117,7 @@ TEST(TourPack, BringsWhatVisitorsFindAcross) {
   EXPECT_EQ(pack.flocks[0].clip, "fly");
   ASSERT_EQ(pack.smokes.size(), 1u);
   EXPECT_EQ(pack.smokes[0].position_m.z, 14);
-  EXPECT_EQ(pack.smokes[0].width_m, 0.75f);
+  EXPECT_EQ(pack.smokes[0].width_m, 0.1f);
   EXPECT_EQ(pack.smokes[0].density, 0.25f);
   EXPECT_EQ(pack.wind.yaw_rad, 1.5f);
   EXPECT_EQ(pack.wind.speed_mps, 2.5f);

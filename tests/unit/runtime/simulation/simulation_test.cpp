@@ -54,6 +54,16 @@ TEST(StartSimulation, NamesAStopThatNoWayLeadsTo) {
   EXPECT_LT(Length(s.visitor.camera.view.position - Vec2{5, 35}), 1) << "goes on to the next stop";
 }
 
+TEST(StartSimulation, ATourIsWhereMostOfItsStopsAre) {
+  TourPack pack = SmallTown();
+  pack.path = {Stop({30, 30}), Stop({5, 5}), Stop({5, 35})};
+  Simulation s = Started(pack);
+  ASSERT_EQ(s.town.warnings.size(), 1u);
+  EXPECT_NE(s.town.warnings[0].find("stop 1 cannot be reached"), std::string::npos) << s.town.warnings[0];
+  EXPECT_EQ(s.visitor.tour.stops.size(), 2u);
+  EXPECT_LT(Length(s.visitor.camera.view.position - Vec2{5, 5}), 1);
+}
+
 TEST(StartSimulation, WithoutATourTheVisitorStandsInTheLargestPartOfTheTown) {
   TourPack pack = SmallTown();
   const Simulation s = Started(pack);
