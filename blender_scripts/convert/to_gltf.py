@@ -49,6 +49,8 @@ IMPORTERS = {
     **{kind: by_operator("wm", "usd_import") for kind in (".usd", ".usda", ".usdc", ".usdz")},
 }
 
+BINDING = ("CHILD_OF", "COPY_TRANSFORMS", "COPY_LOCATION", "ARMATURE")  # constraints by which a thing goes with a bone
+
 
 def open_input(path):
     kind = os.path.splitext(path)[1].lower()
@@ -81,14 +83,39 @@ def only_clips_of_rigs():
 
 def stand_at_rest():
     """The exporter brings what hangs on a posed bone back to the rest pose, but amiss where the rig itself was moved,
-    turned or scaled; it poses by the clips itself."""
+    turned or scaled; it poses by the clips itself, if the rig isn't held at rest."""
     for rig in bpy.context.scene.objects:
         if rig.type != "ARMATURE":
             continue
+        rig.data.pose_position = "POSE"
         if rig.animation_data:
             rig.animation_data.use_nla = False
         for bone in rig.pose.bones:
             bone.matrix_basis.identity()
+
+
+def bone_held_by(thing):
+    """The rig and the bone that a constraint binds a thing to, as artists hang hats and tools; None where there is none."""
+    for constraint in thing.constraints:
+        if constraint.mute or not constraint.influence:
+            continue
+        for target in getattr(constraint, "targets", [constraint]):
+            rig, bone = getattr(target, "target", None), getattr(target, "subtarget", "")
+            if constraint.type in BINDING and rig and rig.type == "ARMATURE" and bone in rig.data.bones:
+                return rig, bone
+    return None
+
+
+def hang_on_bones():
+    """What constraints bind to a bone becomes its child: glTF knows no constraints."""
+    bpy.context.view_layer.update()
+    seen = bpy.context.evaluated_depsgraph_get()
+    held = {thing: (bone_held_by(thing), thing.evaluated_get(seen).matrix_world.copy()) for thing in bpy.context.scene.objects
+            if thing.type in ("MESH", "EMPTY") and bone_held_by(thing)}
+    for thing, ((rig, bone), place) in held.items():
+        thing.constraints.clear()
+        thing.parent, thing.parent_type, thing.parent_bone = rig, "BONE", bone
+        thing.matrix_world = place
 
 
 def apply_modifiers_beside_shape_keys():
@@ -118,6 +145,7 @@ def main():
         fail("%s: holds no mesh" % path)
     only_clips_of_rigs()
     stand_at_rest()
+    hang_on_bones()
     apply_all = apply_modifiers_beside_shape_keys()
     write_atomically(settings["output"], lambda out: gltf.export_glb(
         out, use_visible=True, export_apply=apply_all, export_morph=True, export_morph_normal=False, export_morph_animation=False, export_animations=True, export_nla_strips=True,

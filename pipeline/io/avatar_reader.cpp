@@ -590,7 +590,10 @@ Error AvatarReader::AddClips() {
     if (!human && shipped) continue;  // said below
     if (Error e = FitClip(chosen, human ? &rig : nullptr, why)) return e;
   }
-  if (FindClip(*avatar_, "walk") == nullptr) {
+  const Clip* const walk = FindClip(*avatar_, "walk");
+  if (human && walk != nullptr && GoesBackwards(rig, *walk))
+    notes_->push_back("the walk goes backwards: its soles push the ground ahead; name another clip as walk");
+  if (walk == nullptr) {
     if (!document_.clips.empty())
       return Fail("no walk clip, and no legs that another could move (" + why + "); " + clips_.missing);
     notes_->push_back("it has no walk clip and no legs to walk with (" + why + "): it glides as it stands");

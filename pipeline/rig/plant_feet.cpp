@@ -31,6 +31,10 @@ std::vector<bool> SteppingJoints(const Rig& rig) {
 
 float SlideOfWalk(const Rig& rig, const Clip& walk) { return Retarget(rig, walk, rig, {.walks = true}).source_slide; }
 
+bool GoesBackwards(const Rig& rig, const Clip& walk) {
+  return !rig.humanoid.by_shape && walk.keys >= 3 && Retarget(rig, walk, rig, {.walks = true}).walk_speed_mps < 0;
+}
+
 bool PlantFeet(const Rig& rig, Retargeted* walk) {
   if (rig.humanoid.by_shape || !BendsKnees(rig) || walk->clip.keys < 3) return false;
   Retargeted planted = Retarget(rig, walk->clip, rig, {.walks = true});

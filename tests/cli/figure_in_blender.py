@@ -103,6 +103,21 @@ def make_figure_with_hat(folder):
     bpy.ops.wm.save_as_mainfile(filepath=str(folder / "hat.blend"))
 
 
+def make_figure_with_held_hat(folder):
+    """A constraint holds the hat at the head, and the rig is shown at rest."""
+    bpy.ops.wm.open_mainfile(filepath=str(folder / "figure.blend"))
+    rig = bpy.data.objects["rig"]
+    bpy.ops.mesh.primitive_cube_add(location=(0, 0, 1.8), scale=(0.1, 0.1, 0.1))
+    hat = bpy.context.object
+    hat.name = "hat"
+    rig.data.pose_position = "REST"
+    bpy.context.view_layer.update()
+    holds = hat.constraints.new("CHILD_OF")
+    holds.target, holds.subtarget = rig, "head"
+    holds.inverse_matrix = (rig.matrix_world @ rig.pose.bones["head"].matrix).inverted()
+    bpy.ops.wm.save_as_mainfile(filepath=str(folder / "held_hat.blend"))
+
+
 def paint(house):
     """With a picture that lies as a UV map of a name says."""
     material = bpy.data.materials.new("wall")
@@ -139,4 +154,5 @@ def make_town(folder):
 target = pathlib.Path(sys.argv[sys.argv.index("--") + 1])
 make_figure(target)
 make_figure_with_hat(target)
+make_figure_with_held_hat(target)
 make_town(target)

@@ -54,6 +54,14 @@ class Formats(unittest.TestCase):
         listed = run("flaneur", "avatar", self.folder / "hat.blend", "--list")
         self.assertIn("on bone head", listed.stdout)
 
+    def test_a_hat_that_a_constraint_holds_sits_on_the_head_of_a_figure_that_walks_though_shown_at_rest(self):
+        facts = self.levels_of("held_hat.blend")
+        self.assertEqual(facts["levels"][0]["triangles"], TRIANGLES + 12)
+        self.assertAlmostEqual(facts["height_m"], 1.9, delta=0.01)
+        self.assertAlmostEqual(facts["walk_speed_mps"], 2.06, delta=0.1)
+        listed = run("flaneur", "avatar", self.folder / "held_hat.blend", "--list")
+        self.assertIn("on bone head", listed.stdout)
+
     def test_a_figure_without_bones_is_refused(self):
         result = run("flaneur", "avatar", self.folder / "figure.obj", "-o", self.folder / "none.glb")
         self.assertEqual(result.returncode, 2)

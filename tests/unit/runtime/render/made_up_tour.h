@@ -10,7 +10,6 @@
 
 #include "runtime/desktop/context.h"
 #include "runtime/render/renderer.h"
-#include "tests/soak/drivers_stay_loaded.h"
 
 namespace flaneur {
 

@@ -7,6 +7,7 @@
 #include "runtime/render/mip_chain.h"
 #include "runtime/render/projection.h"
 #include "runtime/render/textures.h"
+#include "tests/soak/drivers_stay_loaded.h"
 #include "tests/unit/runtime/render/made_up_tour.h"
 
 namespace flaneur {
