@@ -1,4 +1,5 @@
 // The visitor's pages as elements: what stands on them the player tells, row by row, as it does to its own window.
+import {directionOf, wrap} from './lines.js';
 import {element} from './trouble.js';
 import {say} from './sentences.js';
 
@@ -52,17 +53,18 @@ export class Pages {
   }
   // Of the picture that the canvas shows just now.
   takePhoto(canvas, line) {
-    const strip = line ? Math.round(canvas.height / 16) : 0;
-    const whole = Object.assign(document.createElement('canvas'), {width: canvas.width, height: canvas.height + strip});
-    const ink = whole.getContext('2d');
+    const letters_px = Math.max(12, Math.round(Math.min(canvas.width, canvas.height) / 30)), high_px = 1.4 * letters_px;
+    const font = `${letters_px}px system-ui, sans-serif`;
+    const whole = document.createElement('canvas'), ink = whole.getContext('2d');
+    ink.font = font;
+    const lines = line ? wrap(ink, line, canvas.width * 0.96) : [];
+    whole.width = canvas.width;
+    whole.height = canvas.height + (lines.length > 0 ? Math.round((lines.length + 0.5) * high_px) : 0);
     ink.fillStyle = '#fff';
     ink.fillRect(0, 0, whole.width, whole.height);
     ink.drawImage(canvas, 0, 0);
-    ink.fillStyle = '#1a1712';
-    ink.font = `${Math.round(strip * 0.55)}px system-ui, sans-serif`;
-    ink.textBaseline = 'middle';
-    ink.textAlign = 'center';
-    ink.fillText(line, whole.width / 2, canvas.height + strip / 2, whole.width * 0.96);
+    Object.assign(ink, {fillStyle: '#1a1712', font, textBaseline: 'middle', textAlign: 'center', direction: directionOf(line)});
+    lines.forEach((each, k) => ink.fillText(each, whole.width / 2, canvas.height + (k + 0.75) * high_px));
     whole.toBlob((blob) => {
       if (this.photo) URL.revokeObjectURL(this.photo.url);
       this.photo = blob && {blob, url: URL.createObjectURL(blob)};

@@ -1,5 +1,7 @@
 // What stands in a headset's room besides the town: pages and captions as panels, the rays of the hands, where one would
 // land, and the vignette of smooth walking. Drawn over the finished picture of each eye.
+import {directionOf, wrap} from './lines.js';
+
 const kPanel_px = 1024, kPanel_m = 1.3, kPanelAway_m = 1.5;
 const kCaption_px = [1024, 256], kCaption_m = [1.5, 0.375], kCaptionAway_m = 1.9, kCaptionBelow_m = 0.55;
 const kUnit = 15;             // of the textures' units, one that the player leaves alone
@@ -39,16 +41,6 @@ const place = (x, y, z, at) => new Float32Array([...x, 0, ...y, 0, ...z, 0, ...a
 function panelAt(at, towards, wide, high) {
   const flat = length([towards[0], 0, towards[2]]) || 1, z = [-towards[0] / flat, 0, -towards[2] / flat], x = [z[2], 0, -z[0]];
   return {at, x, z, wide, high, matrix: place(x.map((v) => v * wide / 2), [0, high / 2, 0], z, at)};
-}
-
-function wrap(ink, text, most) {
-  const lines = [];
-  for (const word of text.split(/\s+/)) {
-    const longer = lines.length > 0 ? lines.at(-1) + ' ' + word : word;
-    if (lines.length > 0 && ink.measureText(longer).width <= most) lines[lines.length - 1] = longer;
-    else lines.push(word);
-  }
-  return lines;
 }
 
 export class Room {
@@ -182,6 +174,8 @@ export class Room {
     ink.textBaseline = 'middle';
     ink.fillStyle = '#fff';
     ink.font = '600 46px system-ui, sans-serif';
+    ink.textAlign = 'left';
+    ink.direction = directionOf(page.head);
     wrap(ink, page.head, kPanel_px - 80).slice(0, 2).forEach((line, k) => ink.fillText(line, 40, 50 + 54 * k));
     this.fields = [];
     let y = head;
@@ -230,6 +224,7 @@ export class Room {
     ink.fillStyle = state.high_contrast ? '#ff0' : '#fff';
     ink.textAlign = 'center';
     ink.textBaseline = 'middle';
+    ink.direction = directionOf(text);
     lines.forEach((line, k) => ink.fillText(line, width / 2, height - high + 10 + letters * 1.25 * (k + 0.5)));
     this.words.fresh = false;
   }

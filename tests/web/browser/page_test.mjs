@@ -307,6 +307,25 @@ const tests = {
     await end(page);
     await host.close();
   },
+  async 'text on a canvas keeps within its lines in any script'() {
+    const host = await serve(site);
+    const page = await newPage(host.url);
+    const widest = await page.evaluate(async () => {
+      const {directionOf, wrap} = await import('./lines.js');
+      const ink = document.createElement('canvas').getContext('2d');
+      ink.font = '20px sans-serif';
+      const texts = ['Who built the old market? The merchants of salt, cloth and honey.', '这座古老的市场建于一六四二年，由盐商、布商和蜂蜜商人共同出资修建。',
+        'Donaudampfschifffahrtsgesellschaftskapitänswitwe', 'بُني سوق المدينة القديم في عام 1642 (الأرشيف).', 'ตลาดเก่าแห่งนี้สร้างขึ้นโดยพ่อค้าเกลือ', ''];
+      return texts.map((text) => {
+        const lines = wrap(ink, text, 150), letters = (t) => t.replace(/\s/g, '');
+        return {text, lines, direction: directionOf(text), all: letters(lines.join('')) === letters(text), most: Math.max(...lines.map((l) => ink.measureText(l).width))};
+      });
+    });
+    for (const {text, lines, all, most} of widest) assert.ok(all && most <= 150 && lines.length >= (text ? 2 : 1), JSON.stringify([text, lines, most]));
+    assert.deepEqual(widest.map((w) => w.direction), ['ltr', 'ltr', 'ltr', 'rtl', 'ltr', 'ltr']);
+    await end(page);
+    await host.close();
+  },
   async 'map, photo and what is to be seen are elements of the page, and the town is heard'() {
     const host = await serve(site);
     const page = await newPage(host.url + '#lang=en', (p) => p.evaluateOnNewDocument(() => {
