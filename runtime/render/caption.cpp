@@ -13,6 +13,7 @@ constexpr float kLetterShare = 1 / 20.0f, kLetterWidthShare = 1 / 24.0f;  // of 
 constexpr float kTextWidthShare = 0.84f, kMargin = 0.55f;                 // of the picture, in letters
 constexpr float kMostShare = 0.5f;                                        // of the picture's height
 constexpr float kSmaller = 0.94f, kLeastSize = 0.5f;
+constexpr float kLeastInParts = 0.75f;  // letters as small as that, before a caption is shown in parts
 constexpr float kMinLetter_px = 12;
 constexpr int kMinPicture_px = 64;
 
@@ -35,15 +36,39 @@ void PutGlyph(const GlyphPicture& glyph, Vec2 pen, const Color& strip, const Col
   }
 }
 
+// Some of the lines, from the upper edge on.
+TextLayout LinesOf(const TextLayout& whole, size_t first, size_t count) {
+  TextLayout part = whole;
+  const float line_px = whole.height_px / static_cast<float>(whole.lines.size());
+  const TextLine &begin = whole.lines[first], &end = whole.lines[first + count - 1];
+  const auto glyph = [&](size_t index) { return whole.glyphs.begin() + static_cast<std::ptrdiff_t>(index); };
+  part.glyphs.assign(glyph(begin.first_glyph), glyph(end.first_glyph + end.glyphs));
+  for (PlacedGlyph& g : part.glyphs) g.pen_px.y -= static_cast<float>(first) * line_px;
+  part.height_px = static_cast<float>(count) * line_px;
+  return part;
+}
+
+// Parts as even as can be.
+TextLayout PartOf(const TextLayout& whole, float most_px, float passed, CaptionPart* part) {
+  const size_t lines = whole.lines.size();
+  const float line_px = whole.height_px / static_cast<float>(lines);
+  const size_t most = std::max<size_t>(1, static_cast<size_t>(most_px / line_px));
+  const size_t parts = (lines + most - 1) / most, each = (lines + parts - 1) / parts;
+  *part = PartDue(passed, static_cast<int>((lines + each - 1) / each));
+  const size_t first = static_cast<size_t>(part->index) * each;
+  return LinesOf(whole, first, std::min(each, lines - first));
+}
+
 // As large as wished, or as the picture has room for.
-TextLayout LayOut(const std::string& text, const CaptionStyle& style, float width_px, float height_px, Fonts* fonts) {
+TextLayout LayOut(const std::string& text, const CaptionStyle& style, float width_px, float height_px, Fonts* fonts,
+                  float passed, CaptionPart* part) {
   const float usual_px = std::min(height_px * kLetterShare, width_px * kLetterWidthShare);
   TextStyle letters{.letter_px = std::max(kMinLetter_px, usual_px * style.size), .language = style.language};
   const auto room_px = [&] {
     return style.side == 0 ? width_px * kTextWidthShare : width_px * kCaptionPanel - 2 * kMargin * letters.letter_px;
   };
   const auto lay_out = [&] { return LayOutText(text, room_px(), letters, fonts); };
-  const float least_px = std::max(kMinLetter_px, usual_px * kLeastSize);
+  const float least_px = std::max(kMinLetter_px, usual_px * (passed >= 0 ? kLeastInParts : kLeastSize));
   const auto most_px = [&] { return height_px * kMostShare - 2 * kMargin * letters.letter_px; };
   TextLayout layout = lay_out();
   while ((layout.height_px > most_px() || layout.broken_words) && letters.letter_px > least_px) {
@@ -51,6 +76,7 @@ TextLayout LayOut(const std::string& text, const CaptionStyle& style, float widt
     layout = lay_out();
   }
   if (layout.height_px <= height_px * kMostShare) return layout;
+  if (passed >= 0) return PartOf(layout, most_px(), passed, part);
   const float line_px = layout.height_px / static_cast<float>(layout.lines.size());
   letters.most_lines = std::max(1, static_cast<int>(most_px() / line_px));
   return lay_out();
@@ -58,12 +84,19 @@ TextLayout LayOut(const std::string& text, const CaptionStyle& style, float widt
 
 }  // namespace
 
-PackImage LayOutCaption(const std::string& text, const CaptionStyle& style, int width_px, int height_px, Fonts* fonts) {
+CaptionPart PartDue(float passed, int count) {
+  return {std::clamp(static_cast<int>(passed * static_cast<float>(count)), 0, count - 1), count};
+}
+
+PackImage LayOutCaption(const std::string& text, const CaptionStyle& style, int width_px, int height_px, Fonts* fonts,
+                        float passed, CaptionPart* part) {
   PackImage image;
+  CaptionPart due;
   if (text.find_first_not_of(' ') == std::string::npos || width_px < kMinPicture_px || height_px < kMinPicture_px)
     return image;
   const auto width = static_cast<float>(width_px), height = static_cast<float>(height_px);
-  const TextLayout layout = LayOut(text, style, width, height, fonts);
+  const TextLayout layout = LayOut(text, style, width, height, fonts, passed, &due);
+  if (part != nullptr) *part = due;
   const float margin_px = kMargin * layout.em_px;
   const Color& strip = style.high_contrast ? kStripHigh : kStrip;
   const Color& letters = style.high_contrast ? kTextHigh : kText;
@@ -93,8 +126,10 @@ Error CreateCaptionView(Fonts* fonts, CaptionView* caption) {
 
 void DrawCaption(const FrameInput& frame, int width_px, int height_px, CaptionView* c) {
   if (frame.caption != c->text || frame.caption_style != c->style || width_px != c->width_px ||
-      height_px != c->height_px) {
-    const PackImage image = LayOutCaption(frame.caption, frame.caption_style, width_px, height_px, c->fonts);
+      height_px != c->height_px || PartDue(frame.caption_passed, c->part.count) != c->part) {
+    c->part = {};
+    const PackImage image = LayOutCaption(frame.caption, frame.caption_style, width_px, height_px, c->fonts,
+                                          frame.caption_passed, &c->part);
     c->text = frame.caption, c->style = frame.caption_style;
     c->width_px = width_px, c->height_px = height_px, c->strip_px = image.height_px;
     if (c->strip_px == 0) return;

@@ -13,9 +13,16 @@ namespace flaneur {
 
 // A dark strip as wide as the picture, with the text (UTF-8) wrapped on it: one line in the middle, several beginning
 // at one edge. Letters are about a twentieth of the picture's height, smaller where the strip would cover more than
-// half of the picture; what does not fit even so is cut off. On one side it is a
-// panel of at most kCaptionPanel of the picture's width. No text, or a picture under 64 pixels: an empty image.
-PackImage LayOutCaption(const std::string& text, const CaptionStyle& style, int width_px, int height_px, Fonts* fonts);
+// half of the picture. What does not fit even so is shown in parts of as many lines, each while `passed` of the time in
+// which it is read is its own, or, where that is below 0, cut off. On one side it is a panel of at most kCaptionPanel
+// of the picture's width. No text, or a picture under 64 pixels: an empty image.
+struct CaptionPart {
+  int index = 0, count = 1;
+  friend bool operator==(const CaptionPart&, const CaptionPart&) = default;
+};
+CaptionPart PartDue(float passed, int count);
+PackImage LayOutCaption(const std::string& text, const CaptionStyle& style, int width_px, int height_px, Fonts* fonts,
+                        float passed = -1, CaptionPart* part = nullptr);
 
 inline constexpr float kCaptionPanel = 0.62f;
 
@@ -28,6 +35,7 @@ struct CaptionView {
   CaptionStyle style;
   int width_px = 0, height_px = 0;  // of the picture that it was laid out for
   int strip_px = 0;                 // its own height
+  CaptionPart part;
 };
 
 // fonts: null for the built-in one.

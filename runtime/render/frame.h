@@ -76,6 +76,9 @@ struct FrameInput {
   std::vector<Vec3> ground_mark;  // a strip of triangles over the ground; empty: none
   std::string caption;            // UTF-8, at the foot of the picture; empty: none
   float caption_share = 1;        // how much of it is seen, 0 to 1
+  // Of the time in which it is read, how much has passed, 0 to 1: of one that is too long for the picture the part that
+  // is due is shown. Below 0: that isn't known.
+  float caption_passed = -1;
   CaptionStyle caption_style;
   // Of the picture's width and height, 0.1 to 1: all but the caption is drawn so coarsely, and enlarged. Below 1 people
   // are drawn by the coarser levels that serve at that size.

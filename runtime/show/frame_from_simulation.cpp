@@ -42,17 +42,17 @@ Vec3 SunAt(float hour) {
 void AddCaption(const Simulation& s, FrameInput* frame) {
   constexpr float kFadeCaption_s = 0.4f, kReach_m = 2.5f;
   frame->caption.clear();
+  frame->caption_passed = -1;
   if (!s.visitor.tour.resting) return;
   const TourStop& stop = s.visitor.tour.stops[HaltOf(s.visitor.tour)];
   const float reach_m = s.visitor.comfort.captions_stay ? kHears_m : kReach_m;
   if (Length(stop.position_m - s.visitor.camera.view.position) > reach_m) return;
-  frame->caption = s.visitor.tour.words[HaltOf(s.visitor.tour)].caption;
-  frame->caption_share =
-      s.visitor.gentle ? 1
-                       : std::clamp(std::min(s.visitor.tour.rested_s, RestOf_s(s.visitor.tour, HaltOf(s.visitor.tour)) -
-                                                                          s.visitor.tour.rested_s) /
-                                        kFadeCaption_s,
-                                    0.0f, 1.0f);
+  const GuidedTour& tour = s.visitor.tour;
+  const StopWords& words = tour.words[HaltOf(tour)];
+  frame->caption = words.caption;
+  frame->caption_passed = words.read_s > 0 ? std::min(1.0f, tour.rested_s / words.read_s) : -1;
+  const float faded = std::min(tour.rested_s, words.rest_s - tour.rested_s) / kFadeCaption_s;
+  frame->caption_share = s.visitor.gentle ? 1 : std::clamp(faded, 0.0f, 1.0f);
 }
 
 // Away from a guide who leads the visitor.

@@ -112,6 +112,7 @@ void ShowNotice(const Notices& n, bool fades, bool caption_stays, FrameInput* fr
     return;
   }
   frame->caption = n.text;
+  frame->caption_passed = -1;
   frame->caption_share = fades ? std::min(1.0f, n.left_s / kLeaves_s) : 1;
 }
 

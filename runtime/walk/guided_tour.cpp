@@ -22,6 +22,7 @@ constexpr float kAgain_s = 3;     // back within this goes to the halt before, l
 constexpr float kAfterSound_s = 0.7f;
 constexpr float kLooksAfterCut_m = 2.5f;                          // along the way
 constexpr float kMinReading_s = 2, kReading_sPerLetter = 0.065f;  // about 15 letters a second, an unhurried reader
+constexpr int kLettersOfSign = 3;                                 // a sign of China, Japan or Korea says as much
 
 bool IsHalt(const GuidedTour& t, size_t stop) { return RestOf_s(t, stop) > 0; }
 
@@ -173,6 +174,17 @@ std::string WordsIn(const std::map<std::string, std::string>& words, const std::
   return "";
 }
 
+// In letters of an alphabet. In UTF-8 those signs, from U+3000 on, begin with 0xe3 or more; what continues a letter
+// with 0x80 to 0xbf.
+int LengthOf(const std::string& text) {
+  int letters = 0;
+  for (const char c : text) {
+    const auto byte = static_cast<unsigned char>(c);
+    if (byte < 0x80 || byte > 0xbf) letters += byte >= 0xe3 ? kLettersOfSign : 1;
+  }
+  return letters;
+}
+
 StopWords WordsOf(const TourStop& stop, const std::string& language, const std::string& own) {
   StopWords words;
   const auto caption = stop.captions.find(language);
@@ -180,13 +192,14 @@ StopWords WordsOf(const TourStop& stop, const std::string& language, const std::
   words.caption = translated ? caption->second : stop.caption;
   auto sound = stop.sounds.find(language);
   if (sound == stop.sounds.end() && !translated) sound = stop.sounds.find(own);  // one language at a time
-  words.rest_s = stop.pause_s;
-  if (stop.pause_s <= 0 && !words.caption.empty()) {
-    words.rest_s = kMinReading_s + kReading_sPerLetter * static_cast<float>(words.caption.size());
-  }
+  if (!words.caption.empty())
+    words.read_s = kMinReading_s + kReading_sPerLetter * static_cast<float>(LengthOf(words.caption));
+  words.rest_s = stop.pause_s > 0 ? stop.pause_s : words.read_s;
+  words.read_s = std::max(words.read_s, words.rest_s);
   if (sound == stop.sounds.end()) return words;
   words.sound = sound->second.sound;
   words.rest_s = std::max(words.rest_s, sound->second.duration_s + kAfterSound_s);
+  words.read_s = std::max(words.read_s, sound->second.duration_s);
   return words;
 }
 

@@ -25,6 +25,7 @@ struct StopWords {
   std::string caption;
   int sound = -1;    // index into the tour's sounds; -1: none
   float rest_s = 0;  // how long one stays; 0: passes by
+  float read_s = 0;  // in which the caption is read; longer than one stays where the tour's pauses are short
 };
 
 struct GuidedTour {
@@ -82,8 +83,8 @@ Error CutTour(const TourCut& cut, GuidedTour* tour);
 // Words of a stop that has none in this language are in the tour's own.
 void SetLanguage(const std::string& language, GuidedTour* tour);
 
-// Stops that nobody can stand at move beside the wall they are in, those that cannot be reached from where most are, are
-// left out; one warning for each of the two.
+// Stops that nobody can stand at move beside the wall they are in, those that cannot be reached from where most are,
+// are left out; one warning for each of the two.
 void PlaceStops(const VisitorInTown& v);
 // The first stage, or the end of it where the tour is cut, from where the visitor stands.
 void BeginTour(const VisitorInTown& v);

@@ -609,6 +609,7 @@ std::string PageVisit::State() {
   const CameraState& camera = v.s.visitor.camera;
   const PlayerSettings& settings = v.controls.settings;
   return Text({{"caption", v.frame.caption},
+               {"caption_passed", v.frame.caption_passed},
                {"language", v.Language()},
                {"stop", tour.stops.empty() ? -1 : static_cast<int>(HaltOf(tour))},
                {"resting", tour.resting},

@@ -5,6 +5,7 @@ import {directionOf, wrap} from './lines.js';
 const kPanel_px = 1024, kPanel_m = 1.3, kPanelAway_m = 1.5;
 const kCaption_px = [1024, 256], kCaption_m = [1.5, 0.375], kCaptionAway_m = 1.9, kCaptionBelow_m = 0.55;
 const kUnit = 15;             // of the textures' units, one that the player leaves alone
+const kLeastInParts_px = 32;  // letters as small as that, before a caption is shown in parts
 const kFollows_s = 0.4;       // the caption comes after the head
 const kVignette = 0.85, kVignetteCalm = 1, kVignette_s = 0.25;
 
@@ -43,9 +44,12 @@ function panelAt(at, towards, wide, high) {
   return {at, x, z, wide, high, matrix: place(x.map((v) => v * wide / 2), [0, high / 2, 0], z, at)};
 }
 
+// Of as many parts the one that is due while a caption is read; passed: of the time, below 0 where it isn't known.
+const partDue = (passed, count) => Math.min(count - 1, Math.max(0, Math.floor(passed * count)));
+
 export class Room {
   constructor(gl) {
-    Object.assign(this, {gl, panel: null, told: '', fields: [], caption: '', captionPanel: null, hovered: null, dark: 0});
+    Object.assign(this, {gl, panel: null, told: '', fields: [], caption: '', parts: {due: 0, count: 1}, captionPanel: null, hovered: null, dark: 0});
     const shader = (type, text) => {
       const made = gl.createShader(type);
       gl.shaderSource(made, text);
@@ -73,7 +77,7 @@ export class Room {
     if (state.page && told !== this.told) this.#write(state);
     this.told = told;
     const caption = state.page ? '' : state.caption;
-    if (caption !== this.caption) this.#writeCaption(caption, state);
+    if (caption !== this.caption || partDue(state.caption_passed, this.parts.count) !== this.parts.due) this.#writeCaption(caption, state);
     this.caption = caption;
   }
   // Row and button under a ray; null: none.
@@ -211,13 +215,18 @@ export class Room {
     const {ink} = this.words, [width, height] = kCaption_px;
     const large = {large: 1.3, largest: 1.65}[state.text_size] ?? 1;
     ink.clearRect(0, 0, width, height);
+    this.parts = {due: 0, count: 1};
     if (!text) return;
     let letters = 44 * large, lines = [];
-    for (; letters > 16; letters *= 0.9) {
+    for (const least = state.caption_passed >= 0 ? kLeastInParts_px : 16; letters > least; letters *= 0.9) {
       ink.font = `${letters}px system-ui, sans-serif`;
       lines = wrap(ink, text, width - 60);
       if (lines.length * letters * 1.25 < height - 20) break;
     }
+    const most = Math.max(1, Math.floor((height - 20) / (letters * 1.25))), each = Math.ceil(lines.length / Math.ceil(lines.length / most));
+    const count = Math.ceil(lines.length / each);
+    if (state.caption_passed >= 0) this.parts = {due: partDue(state.caption_passed, count), count};
+    lines = lines.slice(this.parts.due * each, (this.parts.due + 1) * each);
     const high = lines.length * letters * 1.25 + 20;
     ink.fillStyle = state.high_contrast ? '#000' : 'rgba(0, 0, 0, 0.78)';
     ink.fillRect(0, height - high, width, high);

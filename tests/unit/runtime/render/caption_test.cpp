@@ -98,6 +98,42 @@ TEST(Caption, LeavesHalfOfThePictureFreeHoweverMuchItSays) {
   }
 }
 
+TEST(Caption, TooLongForThePictureComesInPartsWhileItIsRead) {
+  Fonts fonts;
+  std::string text;
+  for (int k = 0; k < 1200; ++k) text += k < 800 ? "... " : "MMM ";
+  const auto letters = [&](float passed, CaptionPart* part) {
+    const PackImage image = LayOutCaption(text, {"en", 1, false}, 1280, 720, &fonts, passed, part);
+    EXPECT_LE(image.height_px, 720 / 2 + 20) << passed;
+    return LettersOf(image).second;
+  };
+  CaptionPart first, last;
+  const int dots = letters(0, &first), ems = letters(1, &last);
+  EXPECT_GT(first.count, 1);
+  EXPECT_EQ(first.index, 0);
+  EXPECT_EQ(last, (CaptionPart{first.count - 1, first.count}));
+  EXPECT_GT(ems, 3 * dots);
+  const PackImage cut = LayOutCaption(text, {"en", 1, false}, 1280, 720, &fonts);
+  EXPECT_GT(cut.height_px, 300) << "without a time what fits, in smaller letters";
+  CaptionPart whole;
+  LayOutCaption("The well has never run dry.", {"en", 1, false}, 1280, 720, &fonts, 0.9f, &whole);
+  EXPECT_EQ(whole, CaptionPart{});
+}
+
+TEST_F(Drawing, APartOfACaptionGivesWayToTheNextInTime) {
+  FrameInput frame = LookEast();
+  for (int k = 0; k < 300; ++k) frame.caption += k < 150 ? "... " : "MMM ";
+  const TourPack pack = MakePack({});
+  Renderer renderer;
+  ASSERT_EQ(renderer.Create(pack).message, "");
+  frame.caption_passed = 0;
+  const std::vector<uint8_t> first = DrawWith(frame, &renderer);
+  frame.caption_passed = 0.02f;
+  EXPECT_EQ(DrawWith(frame, &renderer), first);
+  frame.caption_passed = 1;
+  EXPECT_NE(DrawWith(frame, &renderer), first);
+}
+
 TEST(Caption, BeginsAtTheRightInArabic) {
   Fonts fonts;
   const std::string text =

@@ -301,6 +301,17 @@ TEST(Tour, RestsUntilEverythingIsReadAndHeard) {
   EXPECT_EQ(RestOf_s(tour, 3), 20);
 }
 
+TEST(GuidedTour, CaptionsAreReadInAsMuchTimeInEveryScript) {
+  GuidedTour tour;
+  std::vector<TourStop> stops(4);
+  stops[0].caption = "The well has never run dry.";
+  stops[1].caption = "यह कुआँ कभी नहीं सूखा है।";
+  stops[2].caption = "Το πηγάδι δεν στέρεψε ποτέ.";
+  stops[3].caption = "这口井从未干涸过。";
+  TakeStops(stops, "en", &tour);
+  for (size_t k = 1; k < stops.size(); ++k) EXPECT_NEAR(RestOf_s(tour, k), RestOf_s(tour, 0), 0.4f) << k;
+}
+
 TEST(Tour, AnUnknownLanguageIsNamedWithTheKnownOnes) {
   TourPack pack = TourTown(5);
   pack.path[1].captions["de"] = "Etwas.";
