@@ -1,11 +1,13 @@
 #include <algorithm>
 #include <iterator>
 #include <nlohmann/json.hpp>
+#include <utility>
 
 #include "pipeline/cli/baking.h"
 #include "pipeline/cli/check_words.h"
 #include "pipeline/cli/stage_inputs.h"
 #include "pipeline/cli/visitor_media.h"
+#include "pipeline/cli/work_clips.h"
 #include "pipeline/core/interruption.h"
 #include "pipeline/core/results.h"
 #include "pipeline/core/temporary_folder.h"
@@ -29,6 +31,7 @@ Error WritePack(Baking* baking, const fs::path& staging, std::vector<std::string
   Fonts fonts(SystemFonts());
   TourParts& parts = baking->parts;
   *warnings = WarningsOfWords(parts, &fonts);
+  for (std::string& nobody : WarningsOfWork(parts)) warnings->push_back(std::move(nobody));
   parts.footprints.origin_m = baking->town.origin_m;  // kept ones may have another
   parts.footprints.reference_system = baking->town.reference_system;
   for (Obstacle& o : parts.footprints.obstacles) o.ground_z_m += baking->town.lowered_m;  // as the town's file has it

@@ -1,6 +1,8 @@
 #include "pipeline/cli/work_clips.h"
 
 #include <algorithm>
+#include <map>
+#include <utility>
 
 #include "runtime/base/text.h"
 
@@ -27,7 +29,38 @@ std::vector<std::string> ClipsFor(const std::string& avatar, const std::vector<P
   return clips;
 }
 
+bool Does(const TourAvatar& avatar, const Place& place) {
+  const std::vector<Clip>& clips = avatar.levels.avatar.clips;
+  const auto has = [&](const auto& clip) { return clip.name == place.clip; };
+  if (std::none_of(clips.begin(), clips.end(), has)) return false;
+  return place.kind != "play" || std::any_of(avatar.clips.begin(), avatar.clips.end(),
+                                             [&](const TourClip& clip) { return has(clip) && clip.speed_mps > 0; });
+}
+
+bool MayBeAt(const TourAvatar& avatar, const Place& place) {
+  return place.avatars.empty() ? avatar.share > 0 : Holds(place.avatars, avatar.levels.avatar.name);
+}
+
 }  // namespace
+
+std::vector<std::string> WarningsOfWork(const TourParts& tour) {
+  std::map<std::pair<std::string, std::string>, std::string> places;  // by kind and clip
+  for (const Place& place : tour.places) {
+    if ((place.kind != "work" && place.kind != "play") || IsUsual(place.clip)) continue;
+    const auto able = [&](const TourAvatar& a) { return MayBeAt(a, place) && Does(a, place); };
+    if (std::any_of(tour.avatars.begin(), tour.avatars.end(), able)) continue;
+    std::string& names = places[{place.kind, place.clip}];
+    names += (names.empty() ? "'" : ", '") + OneLine(place.name) + "'";
+  }
+  std::vector<std::string> warnings;
+  for (const auto& [asked, names] : places) {
+    const auto& [kind, clip] = asked;
+    warnings.push_back("nobody can " + kind + " at " + names + ": no avatar that may be there has the clip '" +
+                       OneLine(clip) + "'" + (kind == "play" ? " with a speed_mps" : "") +
+                       "; give one an [[avatar.clip]] of that name");
+  }
+  return warnings;
+}
 
 Error ChooseWorkClips(const std::vector<Place>& places, const std::vector<Flock>& flocks,
                       std::vector<AvatarSettings>* avatars, std::vector<std::string>* warnings) {

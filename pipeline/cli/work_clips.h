@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "pipeline/cli/tour_settings.h"
+#include "pipeline/pack/write_tour_pack.h"
 #include "runtime/base/error.h"
 
 namespace flaneur {
@@ -14,5 +15,8 @@ namespace flaneur {
 // than kMaxOtherClips.
 Error ChooseWorkClips(const std::vector<Place>& places, const std::vector<Flock>& flocks,
                       std::vector<AvatarSettings>* avatars, std::vector<std::string>* warnings);
+
+// A line for each clip that places ask for and nobody has who may be there; for a play with the speed of a run.
+std::vector<std::string> WarningsOfWork(const TourParts& tour);
 
 }  // namespace flaneur
