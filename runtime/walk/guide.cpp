@@ -14,8 +14,10 @@ namespace {
 
 constexpr float kCatchesUp_ps = 0.9f;  // metres a second for each metre that the lead is short of that
 constexpr float kSetsOff_mps = 0.4f, kStops_mps = 0.15f;
-constexpr float kWaits_m = 4;     // a visitor so much farther than the lead has to come first
-constexpr float kNearHalt_m = 3;  // from the route's end the guide goes to where to stand there
+constexpr float kWaits_m = 4;  // a visitor so much farther than the lead has to come first
+// From the route's end the guide goes to where to stand there, and, as that may lie back beside the route, on to it
+// from so far.
+constexpr float kNearHalt_m = 3, kGoesOnToPlace_m = 12;
 constexpr float kOffPlace_m = 0.5f, kAtPlace_m = 0.15f;
 constexpr float kToPlace_mps = 1.6f, kComesToStand_s = 0.3f;
 constexpr float kAhead = 0.5f,
@@ -54,6 +56,7 @@ void FollowPlan(Vec2 p, const VisitorInTown& v) {
     return;
   }
   g.plans = t.plans;
+  g.goes_to_place = false;
   g.way_m = WayTo(t.route, p, 0, kFarthest_m);
   g.waited_s = 0;
   g.side = SideToWalk(std::min(Lead_m(v), LengthOf_m(t.route)), 0, v);
@@ -65,7 +68,8 @@ bool GoesToPlace(const VisitorInTown& v) {
   if (tour.resting || tour.over) return true;
   const size_t g = v.visitor.guide.index;
   const Vec2 p = v.town.crowd.position[g] + v.town.crowd.velocity[g] * kComesToStand_s;
-  return LengthOf_m(tour.route) - v.visitor.guide.way_m < kNearHalt_m && !(tour.follows && IsFar(v, p));
+  const float near_m = v.visitor.guide.goes_to_place ? kGoesOnToPlace_m : kNearHalt_m;
+  return LengthOf_m(tour.route) - v.visitor.guide.way_m < near_m && !(tour.follows && IsFar(v, p));
 }
 
 // Speed along the route: the visitor's own, and what the lead asks for.
@@ -213,6 +217,7 @@ void LeadOn(const VisitorInTown& v) {
   Crowd& c = v.town.crowd;
   const Vec2 p = c.position[g.index];
   FollowPlan(p, v);
+  g.goes_to_place = GoesToPlace(v);
   g.velocity = Wanted(p, v);
   GetOn(p, v);
   g.waited_s = OwnShareOfPace(v) < 0.3f ? g.waited_s + Step_s(v.settings) : 0;

@@ -21,7 +21,10 @@ constexpr float kTurnsToSight_m = 1.4f;                    // within this, where
 constexpr float kGuideWithin = 0.8f;                       // of half the view
 constexpr float kTurnAhead_m = 6, kTurn_rad = 0.5f;        // a turn within that counts
 constexpr float kStartTurn_rad = 0.35f, kBehind_rad = 2.2f;
-constexpr float kOfTurn = 0.25f, kOfStart = 0.5f, kOfNow = 0.35f;  // preferences, in shares of the room that it takes
+constexpr float kSightAhead_m = 20;
+constexpr float kCrosses = 0.6f;  // of a place beyond the way by which the visitor comes
+constexpr float kOfTurn = 0.25f, kOfStart = 0.5f, kOfNow = 0.35f,
+                kOfSight = 0.6f;  // preferences, in shares of the room that it takes
 
 Vec2 LeftOf(Vec2 along) { return {-along.y, along.x}; }
 
@@ -52,6 +55,16 @@ float Intrusion(const CameraState& camera, float depth_m, float side_m) {
   return 6 * within(-third_m, third_m) + 3 * (1 - within(-half_m, half_m)) + 1.5f * std::max(0.0f, feet - 1);
 }
 
+// Which side of the way the guide is going to stand on at a halt that looks back along it: else they would cross it
+// before the visitor. 0: no such halt comes soon.
+float SideOfSightBehind(float way_m, const VisitorInTown& v) {
+  const GuidedTour& t = v.visitor.tour;
+  const float end_m = LengthOf_m(t.route);
+  if (end_m - way_m > kSightAhead_m) return 0;
+  const Vec2 arrives = AlongRoute(t.route, end_m), look = DirectionOf(LookAt_rad(t, HaltOf(t)));
+  return Dot(arrives, look) < 0 ? std::copysign(1.0f, Cross(arrives, look)) : 0;
+}
+
 }  // namespace
 
 float LeadDepth_m(const CameraState& camera) {
@@ -71,6 +84,8 @@ Vec2 PlaceBesideSight(size_t halt, Vec2 from, const VisitorInTown& v) {
   const Vec2 next = t.stops[std::min(halt + 1, t.stops.size() - 1)].position_m;
   const float depth_m = LeadDepth_m(camera);
   const float least_m = v.settings.r_personal_m + 2 * kHalfWidth_m;
+  const Vec2 arrives = AlongRoute(t.route, LengthOf_m(t.route));
+  const float from_side = Cross(arrives, from - stop.position_m);
   Vec2 best = stop.position_m;
   float least_cost = 1e9f;
   for (const float farther_m : {0.0f, 0.8f, -0.8f, 1.6f, -1.6f, -2.4f, -3.2f, -4.0f}) {
@@ -81,8 +96,10 @@ Vec2 PlaceBesideSight(size_t halt, Vec2 from, const VisitorInTown& v) {
         const float side_m = side * of_clear * clear_m;
         const Vec2 p = stop.position_m + look * ahead_m + left * side_m;
         if (Length(p - stop.position_m) < least_m || !IsFree(v.town.walkable, p)) continue;
+        const Vec2 off = p - stop.position_m;
+        const bool crosses = Dot(arrives, off) < 0 && Cross(arrives, off) * from_side < 0;
         const float cost = Intrusion(camera, ahead_m, side_m) + 0.05f * std::abs(farther_m) + 0.02f * Length(p - from) +
-                           0.01f * Length(p - next);
+                           0.01f * Length(p - next) + (crosses ? kCrosses : 0);
         if (cost < least_cost && FreeLine(v.town.walkable, stop.position_m, p)) least_cost = cost, best = p;
       }
     }
@@ -96,12 +113,14 @@ float SideToWalk(float way_m, float now, const VisitorInTown& v) {
   const Vec2 here = AlongRoute(t.route, way_m), later = AlongRoute(t.route, way_m + kTurnAhead_m);
   const float turn_rad = Length(here) > 0 && Length(later) > 0 ? WrapAngle(AngleOf(later) - AngleOf(here)) : 0;
   const float start_rad = Length(here) > 0 ? WrapAngle(AngleOf(here) - v.visitor.camera.view.yaw_rad) : 0;
+  const float sight = SideOfSightBehind(way_m, v);
   const auto worth = [&](float side) {
     float room_m = takes_m;
     for (const float ahead_m : kRoomAhead_m) room_m = std::min(room_m, Room_m(way_m + ahead_m, side, takes_m, v));
     float points = room_m / takes_m;
     if (side * turn_rad > kTurn_rad) points += kOfTurn;
     if (now == side) points += kOfNow;
+    if (side == sight) points += kOfSight;
     if (now == 0 && side * start_rad > kStartTurn_rad && std::abs(start_rad) < kBehind_rad) points += kOfStart;
     return points;
   };

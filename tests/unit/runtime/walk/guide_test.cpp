@@ -124,6 +124,29 @@ TEST(Guide, IsSeenOnTheWayToAHaltThatLooksAside) {
 }
 
 // Where a passer-by was walked round, the way's last step may lead anywhere: the view turned with it, off the guide.
+// The guide's place lies beside the way that both have come.
+TEST(Guide, GoesStraightToWhereToStandAtAHaltThatLooksBack) {
+  for (const float aside_deg : {90, 105, 120, 135, 150, 165, 180, -105, -120, -135, -150, -165}) {
+    TourPack pack = TourTown(1);
+    pack.path = {Waypoint({3, 30}), Halt({19, 30}, aside_deg * kPi / 180, 3)};
+    Simulation s = Started(pack);
+    float walked_m = 0, turned_rad = 0, nearest_m = 99, yaw_rad = s.visitor.camera.view.yaw_rad;
+    Vec2 place = GuideOf(s);
+    int steps = 0;
+    for (; steps < kMaxSteps && (!s.visitor.tour.resting || s.visitor.tour.rested_s < 2.9f); ++steps) {
+      Step(&s, 1);
+      walked_m += Length(GuideOf(s) - place);
+      turned_rad += std::abs(WrapAngle(s.visitor.camera.view.yaw_rad - yaw_rad));
+      nearest_m = std::min(nearest_m, Apart_m(s));
+      place = GuideOf(s), yaw_rad = s.visitor.camera.view.yaw_rad;
+    }
+    ASSERT_TRUE(s.visitor.tour.resting) << aside_deg;
+    EXPECT_LT(walked_m, 14) << aside_deg << " degrees: 10 m, and none of it round the visitor";
+    EXPECT_LT(turned_rad, 1.6f * kPi) << aside_deg;
+    EXPECT_GT(nearest_m, 1.5f) << aside_deg;
+  }
+}
+
 TEST(Guide, IsLookedPastToTheSightFromTheLastStepsOfAnyWay) {
   TourPack pack = TourTown(1);
   pack.path = {Waypoint({3, 30}), Halt({19, 30}, -kPi / 2, 3)};
