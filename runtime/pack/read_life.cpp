@@ -17,9 +17,7 @@ Flock ReadFlock(const TourObject& json) {
 Smoke ReadSmoke(const TourObject& json) {
   const std::vector<float> p = json.Reals("position_m", -TourObject::kAnything, TourObject::kAnything);
   if (p.size() != 3) json.Refuse("has no position_m of three numbers");
-  return {{p[0], p[1], p[2]},
-          json.Real("width_m", kLeastSmoke_m, kMostSmoke_m),
-          json.Real("density", 0, 1)};
+  return {{p[0], p[1], p[2]}, json.Real("width_m", kLeastSmoke_m, kMostSmoke_m), json.Real("density", 0, 1)};
 }
 
 void ReadFlocks(const TourObject& tour, TourData* data) {

@@ -9,12 +9,12 @@
 namespace flaneur {
 
 struct Guide {
-  int avatar = -1;       // -1: the tour has none
-  int id = -1;           // in the crowd; -1: not there
-  size_t index = 0;      // in the crowd's arrays
-  int plans = 0;         // of the tour, that place and way_m are about
-  float way_m = 0;       // how far along the tour's route
-  Vec2 place;            // where to stand at the halt
+  int avatar = -1;   // -1: the tour has none
+  int id = -1;       // in the crowd; -1: not there
+  size_t index = 0;  // in the crowd's arrays
+  int plans = 0;     // of the tour, that place and way_m are about
+  float way_m = 0;   // how far along the tour's route
+  Vec2 place;        // where to stand at the halt
   bool goes_to_place = false;
   float side = 0;        // of the route, on which the guide walks: 1 left, -1 right; 0: not yet chosen
   float on_route_s = 0;  // left to walk on the route itself
