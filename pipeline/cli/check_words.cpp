@@ -23,14 +23,12 @@ std::string Named(const std::set<char32_t>& letters) {
          (letters.size() > kMostNamed ? " and " + std::to_string(letters.size() - kMostNamed) + " more" : "");
 }
 
-// All that is written in one language.
-struct Words {
-  std::vector<std::pair<std::string, std::string>> texts;  // where, and what
-};
+// All that is written in one language: where, and what.
+using Words = std::vector<std::pair<std::string, std::string>>;
 using WordsByLanguage = std::map<std::string, Words>;
 
 void Add(const std::string& where, const TextsByLanguage& texts, WordsByLanguage* all) {
-  for (const auto& [language, text] : texts) (*all)[language].texts.emplace_back(where, text);
+  for (const auto& [language, text] : texts) (*all)[language].emplace_back(where, text);
 }
 
 WordsByLanguage AllWords(const TourData& tour) {
@@ -72,7 +70,7 @@ std::string Where(const Fault& fault) {
 void CheckLetters(const std::string& language, const Words& words, Fonts* fonts, std::vector<std::string>* warnings) {
   Fault missing, borrowed;
   std::string lender;
-  for (const auto& [where, text] : words.texts) {
+  for (const auto& [where, text] : words) {
     for (const char32_t letter : CodePoints(text)) {
       if (IsInvisible(letter)) continue;
       const int font = fonts->FontFor(letter, language);

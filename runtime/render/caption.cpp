@@ -13,7 +13,7 @@ constexpr float kLetterShare = 1 / 20.0f, kLetterWidthShare = 1 / 24.0f;  // of 
 constexpr float kTextWidthShare = 0.84f, kMargin = 0.55f;                 // of the picture, in letters
 constexpr float kMostShare = 0.5f;                                        // of the picture's height
 constexpr float kSmaller = 0.94f, kLeastSize = 0.5f;
-constexpr float kLeastInParts = 0.75f;  // letters as small as that, before a caption is shown in parts
+constexpr float kLeastInParts = 0.75f;  // of the wished size, letters are before a caption is shown in parts
 constexpr float kMinLetter_px = 12;
 constexpr int kMinPicture_px = 64;
 
@@ -68,10 +68,14 @@ TextLayout LayOut(const std::string& text, const CaptionStyle& style, float widt
     return style.side == 0 ? width_px * kTextWidthShare : width_px * kCaptionPanel - 2 * kMargin * letters.letter_px;
   };
   const auto lay_out = [&] { return LayOutText(text, room_px(), letters, fonts); };
-  const float least_px = std::max(kMinLetter_px, usual_px * (passed >= 0 ? kLeastInParts : kLeastSize));
+  const float least_px = std::max(kMinLetter_px, usual_px * kLeastSize);
+  const float least_high_px = passed >= 0 ? std::max(least_px, usual_px * style.size * kLeastInParts) : least_px;
   const auto most_px = [&] { return height_px * kMostShare - 2 * kMargin * letters.letter_px; };
   TextLayout layout = lay_out();
-  while ((layout.height_px > most_px() || layout.broken_words) && letters.letter_px > least_px) {
+  const auto may_shrink_to_px = [&] {
+    return layout.broken_words ? least_px : layout.height_px > most_px() ? least_high_px : letters.letter_px;
+  };
+  while (letters.letter_px > may_shrink_to_px()) {
     letters.letter_px = std::max(least_px, letters.letter_px * kSmaller);
     layout = lay_out();
   }

@@ -11,16 +11,19 @@
 
 namespace flaneur {
 
-// A dark strip as wide as the picture, with the text (UTF-8) wrapped on it: one line in the middle, several beginning
-// at one edge. Letters are about a twentieth of the picture's height, smaller where the strip would cover more than
-// half of the picture. What does not fit even so is shown in parts of as many lines, each while `passed` of the time in
-// which it is read is its own, or, where that is below 0, cut off. On one side it is a panel of at most kCaptionPanel
-// of the picture's width. No text, or a picture under 64 pixels: an empty image.
+// Of a caption that is too long for the picture, shown part by part.
 struct CaptionPart {
   int index = 0, count = 1;
   friend bool operator==(const CaptionPart&, const CaptionPart&) = default;
 };
+// passed: of the time in which all of it is read; below 0: not known, and the first is due.
 CaptionPart PartDue(float passed, int count);
+
+// A dark strip as wide as the picture, with the text (UTF-8) wrapped on it: one line in the middle, several beginning
+// at one edge. Letters are about a twentieth of the picture's height, smaller where the strip would cover more than
+// half of the picture. Of what does not fit even so the part that is due is there or, where `passed` is not known, what
+// fits. On one side it is a panel of at most kCaptionPanel of the picture's width. No text, or a picture under 64
+// pixels: an empty image.
 PackImage LayOutCaption(const std::string& text, const CaptionStyle& style, int width_px, int height_px, Fonts* fonts,
                         float passed = -1, CaptionPart* part = nullptr);
 
