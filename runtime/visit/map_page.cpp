@@ -20,6 +20,7 @@ constexpr float kPin = 0.62f, kPinReach = 1.3f, kSelf = 0.7f;      // radius in 
 constexpr float kStreetLetter = 0.62f;                             // of a letter
 constexpr float kMostMapLetter = 0.042f;                           // of the map's shorter side
 constexpr size_t kMostHintLines = 2;                               // longer, it would leave the names no room
+constexpr float kMostHint = 0.2f;  // of the list: else it takes the place of the first stop
 constexpr float kMostTimes = 16, kLabelMargin_px = 3;
 constexpr ImU32 kPinColor = IM_COL32(140, 36, 28, 255), kSelfColor = IM_COL32(24, 92, 168, 255);
 constexpr ImU32 kWhite = IM_COL32(255, 255, 255, 255);
@@ -277,7 +278,7 @@ MapChoice ShowList(const TourPack& pack, const Simulation& s, const PageLook& lo
     ShowKeyMark(&menu->mark);
     const std::string back = Say(Phrase::kBackToPages, look.language);
     const TextRoom hint = RoomFor(Say(Phrase::kMapTap, look.language), inner_px, TextOf(look), &overlay->text());
-    const bool hints = hint.lines <= kMostHintLines;
+    const bool hints = hint.lines <= kMostHintLines && hint.height_px <= kMostHint * (box.bottom - box.top);
     ShowListRows(pack, s, look, hints, &rows, page, &choice);
     const float rest_px = box.bottom - box.top - 1.2f * letter_px - rows.ButtonHeight_px(back) - 0.6f * letter_px;
     if (!rows.Fit(rest_px, menu->first, Say(Phrase::kMore, look.language))) menu->first = 0;
