@@ -95,7 +95,9 @@ def stand_at_rest():
 
 
 def bone_held_by(thing):
-    """The rig and the bone that a constraint binds a thing to, as artists hang hats and tools; None where there is none."""
+    """The rig and the bone that a constraint binds a thing to, as artists hang hats and tools; None where there is none, or a skin."""
+    if thing.type not in ("MESH", "EMPTY") or any(modifier.type == "ARMATURE" for modifier in thing.modifiers):
+        return None
     for constraint in thing.constraints:
         if constraint.mute or not constraint.influence:
             continue
@@ -110,8 +112,7 @@ def hang_on_bones():
     """What constraints bind to a bone becomes its child: glTF knows no constraints."""
     bpy.context.view_layer.update()
     seen = bpy.context.evaluated_depsgraph_get()
-    held = {thing: (bone_held_by(thing), thing.evaluated_get(seen).matrix_world.copy()) for thing in bpy.context.scene.objects
-            if thing.type in ("MESH", "EMPTY") and bone_held_by(thing)}
+    held = {thing: (bone_held_by(thing), thing.evaluated_get(seen).matrix_world.copy()) for thing in bpy.context.scene.objects if bone_held_by(thing)}
     for thing, ((rig, bone), place) in held.items():
         thing.constraints.clear()
         thing.parent, thing.parent_type, thing.parent_bone = rig, "BONE", bone
