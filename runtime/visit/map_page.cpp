@@ -20,7 +20,7 @@ constexpr float kPin = 0.62f, kPinReach = 1.3f, kSelf = 0.7f;      // radius in 
 constexpr float kStreetLetter = 0.62f;                             // of a letter
 constexpr float kMostMapLetter = 0.042f;                           // of the map's shorter side
 constexpr size_t kMostHintLines = 2;                               // longer, it would leave the names no room
-constexpr float kMostHint = 0.2f;  // of the list: else it takes the place of the first stop
+constexpr float kMostHint = 0.15f;  // of the list: else it takes the place of the first stop
 constexpr float kMostTimes = 16, kLabelMargin_px = 3;
 constexpr ImU32 kPinColor = IM_COL32(140, 36, 28, 255), kSelfColor = IM_COL32(24, 92, 168, 255);
 constexpr ImU32 kWhite = IM_COL32(255, 255, 255, 255);
