@@ -1,10 +1,10 @@
 #include "pipeline/cli/check_words.h"
 
-#include <algorithm>
 #include <map>
 #include <set>
 #include <utility>
 
+#include "pipeline/core/listed.h"
 #include "runtime/base/text.h"
 #include "runtime/text/unicode.h"
 
@@ -60,13 +60,6 @@ struct Fault {
   }
 };
 
-std::string Where(const Fault& fault) {
-  std::string list;
-  for (size_t i = 0; i < std::min(kMostPlaces, fault.places.size()); ++i) list += (i > 0 ? ", " : "") + fault.places[i];
-  const size_t more = fault.places.size() - std::min(kMostPlaces, fault.places.size());
-  return list + (more > 0 ? " and " + std::to_string(more) + " more" : "");
-}
-
 void CheckLetters(const std::string& language, const Words& words, Fonts* fonts, std::vector<std::string>* warnings) {
   Fault missing, borrowed;
   std::string lender;
@@ -83,10 +76,10 @@ void CheckLetters(const std::string& language, const Words& words, Fonts* fonts,
   const std::string in = "the tour's words in '" + OneLine(language) + "' have letters that ";
   if (!missing.letters.empty())
     warnings->push_back(in + "no font of this machine shows, and visitors will see boxes: " + Named(missing.letters) +
-                        " (" + Where(missing) + ")");
+                        " (" + Listed(missing.places, kMostPlaces) + ")");
   if (!borrowed.letters.empty())
     warnings->push_back(in + "the player shows only where a font for them is installed, as " + OneLine(lender) +
-                        " is here: " + Named(borrowed.letters) + " (" + Where(borrowed) + ")");
+                        " is here: " + Named(borrowed.letters) + " (" + Listed(borrowed.places, kMostPlaces) + ")");
 }
 
 bool Holds(const TextsByLanguage& texts, const std::string& language) {

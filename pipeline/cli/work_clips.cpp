@@ -4,6 +4,7 @@
 #include <map>
 #include <utility>
 
+#include "pipeline/core/listed.h"
 #include "runtime/base/text.h"
 
 namespace flaneur {
@@ -44,20 +45,19 @@ bool MayBeAt(const TourAvatar& avatar, const Place& place) {
 }  // namespace
 
 std::vector<std::string> WarningsOfWork(const TourParts& tour) {
-  std::map<std::pair<std::string, std::string>, std::string> places;  // by kind and clip
+  std::map<std::pair<std::string, std::string>, std::vector<std::string>> places;  // by kind and clip
   for (const Place& place : tour.places) {
     if ((place.kind != "work" && place.kind != "play") || IsUsual(place.clip)) continue;
     const auto able = [&](const TourAvatar& a) { return MayBeAt(a, place) && Does(a, place); };
     if (std::any_of(tour.avatars.begin(), tour.avatars.end(), able)) continue;
-    std::string& names = places[{place.kind, place.clip}];
-    names += (names.empty() ? "'" : ", '") + OneLine(place.name) + "'";
+    places[{place.kind, place.clip}].push_back(OneLine(place.name));
   }
   std::vector<std::string> warnings;
   for (const auto& [asked, names] : places) {
     const auto& [kind, clip] = asked;
-    warnings.push_back("nobody can " + kind + " at " + names + ": no avatar that may be there has the clip '" +
-                       OneLine(clip) + "'" + (kind == "play" ? " with a speed_mps" : "") +
-                       "; give one an [[avatar.clip]] of that name");
+    warnings.push_back("nobody can " + kind + " at " + Listed(names, names.size(), "'") +
+                       ": no avatar that may be there has the clip '" + OneLine(clip) + "'" +
+                       (kind == "play" ? " with a speed_mps" : "") + "; give one an [[avatar.clip]] of that name");
   }
   return warnings;
 }

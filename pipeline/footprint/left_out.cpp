@@ -5,6 +5,7 @@
 #include <map>
 #include <utility>
 
+#include "pipeline/core/listed.h"
 #include "pipeline/footprint/constants.h"
 #include "pipeline/footprint/object_shape.h"
 
@@ -17,23 +18,16 @@ std::string Number(double value) {
   return text;
 }
 
-// In quotes, and how many more than `most` there are.
-std::string Listed(const std::vector<std::string>& names, size_t most) {
-  std::string list;
-  for (size_t i = 0; i < std::min(names.size(), most); ++i) list += (i > 0 ? ", '" : "'") + names[i] + "'";
-  return names.size() > most ? list + " and " + std::to_string(names.size() - most) + " more" : list;
-}
-
 void WarnOfFlat(const std::vector<std::string>& flat, std::vector<std::string>* warnings) {
   if (flat.empty()) return;
   warnings->push_back(std::to_string(flat.size()) + " untagged objects no higher than " + Number(kMaxFlatHeight_m) +
-                      " m were taken for ground and block nobody: " + Listed(flat, flat.size()));
+                      " m were taken for ground and block nobody: " + Listed(flat, flat.size(), "'"));
 }
 
 void WarnOfUntold(const std::vector<std::string>& untold, std::vector<std::string>* warnings) {
   if (untold.empty()) return;
   constexpr size_t kNamed = 8;
-  warnings->push_back("the town's ground was found by its shape, in " + Listed(untold, kNamed) +
+  warnings->push_back("the town's ground was found by its shape, in " + Listed(untold, kNamed, "'") +
                       ": tag what it is, or give it a name");
 }
 

@@ -591,7 +591,7 @@ Error AvatarReader::AddClips() {
     if (Error e = FitClip(chosen, human ? &rig : nullptr, why)) return e;
   }
   const Clip* const walk = FindClip(*avatar_, "walk");
-  if (human && walk != nullptr && GoesBackwards(rig, *walk))
+  if (human && walk != nullptr && !clips_.shipped_walk && GoesBackwards(rig, *walk))
     notes_->push_back("the walk goes backwards: its soles push the ground ahead; name another clip as walk");
   if (walk == nullptr) {
     if (!document_.clips.empty())

@@ -25,7 +25,6 @@ class SourceMotion {
 
   const Motion& motion() const { return motion_; }
   const std::vector<bool>& stands(size_t side) const { return stands_[side]; }
-  const Rig& rig() const { return rig_; }
   float slide() const { return slide_; }
   bool stiff() const { return walks_ && !BendsKnees(rig_); }
 

@@ -276,11 +276,11 @@ std::vector<ByteRange> PackFile::RangesOfMesh(int mesh) const {
 std::vector<ByteRange> PackFile::RangesOfAtlas(int avatar, int finest_level) const {
   return Ranges([&](const GltfFile& file, std::vector<ByteRange>* ranges) {
     const TourObject& json = At(impl_->impostors, avatar);
-    const double last = static_cast<double>(Member(file.json, "bufferViews").size()) - 1;
+    const size_t views = Member(file.json, "bufferViews").size();
     const int width_px = At(impl_->atlases, avatar).width_px;
     for (const AtlasView& view : kAtlasViews) {
       if (!json.Has(view.name)) continue;
-      const int index = json.Whole(view.name, 0, last);
+      const int index = json.View(view.name, views);
       ByteRange range = RangeOfView(file, index);
       if (finest_level > 0)
         range.bytes =

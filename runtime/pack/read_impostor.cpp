@@ -49,8 +49,7 @@ void ReadOtherPhases(const TourObject& json, PackImpostor* impostor) {
 
 void ReadAtlasPicture(const GltfFile& file, const TourObject& json, const char* view, TextureFormat format,
                       const PackImpostor& impostor, int halved, PackTexture* picture) {
-  const double last = static_cast<double>(Member(file.json, "bufferViews").size()) - 1;
-  const int index = json.Whole(view, 0, last);
+  const int index = json.View(view, Member(file.json, "bufferViews").size());
   if (Error e = ReadKtx2Beginning(BeginningOfView(file, index), RangeOfView(file, index).bytes, picture))
     json.Refuse(std::string(view) + " " + e.message);
   int left_out = 0;  // levels
@@ -105,8 +104,7 @@ PackImpostor ReadImpostor(const GltfFile& file, const TourObject& json) {
     out.clips.push_back(ReadPhases(c, c.OneOf("name", {"walk", "idle", "talk"}), out.frames));
   if (out.clips.empty()) json.Refuse("has no clips");
   if (json.Has("other_clips")) ReadOtherPhases(json, &out);
-  const double last = static_cast<double>(Member(file.json, "bufferViews").size()) - 1;
-  out.cells = ReadCells(file, BufferView(file, json.Whole("cells_view", 0, last)), out);
+  out.cells = ReadCells(file, BufferView(file, json.View("cells_view", Member(file.json, "bufferViews").size())), out);
   return out;
 }
 

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <cstring>
+#include <span>
 #include <utility>
 
 #include "runtime/base/array.h"
@@ -41,13 +42,17 @@ size_t ReadRasterFrame(const TourObject& json, Raster* raster) {
   return static_cast<size_t>(raster->columns) * static_cast<size_t>(raster->rows);
 }
 
+std::span<const uint8_t> ViewOfSize(const GltfFile& file, const TourObject& json, const char* key, size_t bytes) {
+  const auto view = BufferView(file, json.View(key, Member(file.json, "bufferViews").size()));
+  if (view.size() != bytes) json.Refuse("has views of the wrong size");
+  return view;
+}
+
 Painting ReadPainting(const GltfFile& file, const TourObject& json) {
   Painting painting;
   const size_t cells = ReadRasterFrame(json, &painting);
-  const double last = static_cast<double>(Member(file.json, "bufferViews").size()) - 1;
-  const auto people = BufferView(file, json.Whole("people_view", 0, last));
-  const auto loiter = BufferView(file, json.Whole("loiter_view", 0, last));
-  if (people.size() != cells || loiter.size() != cells) json.Refuse("has views of the wrong size");
+  const auto people = ViewOfSize(file, json, "people_view", cells),
+             loiter = ViewOfSize(file, json, "loiter_view", cells);
   file.allowance->TakeMemory(2 * cells, "the painting");
   painting.people.assign(people.begin(), people.end());
   painting.loiter.assign(loiter.begin(), loiter.end());
@@ -124,10 +129,8 @@ void ReadTour(const GltfFile& file, const TourObject& tour, TourPack* pack) {
 GroundRaster ReadGround(const GltfFile& file, const TourObject& json) {
   GroundRaster ground;
   const size_t cells = ReadRasterFrame(json, &ground);
-  const double last = static_cast<double>(Member(file.json, "bufferViews").size()) - 1;
-  const auto heights = BufferView(file, json.Whole("height_view", 0, last));
-  const auto kinds = BufferView(file, json.Whole("kind_view", 0, last));
-  if (heights.size() != cells * 4 || kinds.size() != cells) json.Refuse("has views of the wrong size");
+  const auto heights = ViewOfSize(file, json, "height_view", cells * 4);
+  const auto kinds = ViewOfSize(file, json, "kind_view", cells);
   file.allowance->TakeMemory(5 * cells, "the ground");
   ground.height_m.resize(cells);
   std::memcpy(ground.height_m.data(), heights.data(), heights.size());

@@ -100,7 +100,7 @@ Vec2 AlongRouteBeside(Vec2 p, const VisitorInTown& v) {
 
 Vec2 Wanted(Vec2 p, const VisitorInTown& v) {
   Guide& g = v.visitor.guide;
-  if (GoesToPlace(v)) {
+  if (g.goes_to_place) {
     const float left_m = Length(g.place - p);
     g.walks = left_m > (g.walks ? kAtPlace_m : kOffPlace_m);
     if (!g.walks) return {};

@@ -271,18 +271,15 @@ Error CutTour(const TourCut& cut, GuidedTour* t) {
 
 namespace {
 
-int StretchOf(const Walkable& w, Vec2 p) {
-  const int cell = FreeCellFor(w, p);
-  return cell < 0 ? -1 : w.component[static_cast<size_t>(cell)];
-}
+int StretchOf(const Walkable& w, int cell) { return cell < 0 ? -1 : w.component[static_cast<size_t>(cell)]; }
 
-// The stretch of ground that most of the stops are on; of equals the one that comes first; -1: none is on any.
-int StretchOfMost(const std::vector<TourStop>& stops, const Walkable& w) {
+// The stretch of ground that most of the cells are on; of equals the one that comes first; -1: none is on any.
+int StretchOfMost(const Walkable& w, const std::vector<int>& cells) {
   std::map<int, int> count;
-  for (const TourStop& stop : stops) ++count[StretchOf(w, stop.position_m)];
+  for (const int cell : cells) ++count[StretchOf(w, cell)];
   int best = -1;
-  for (const TourStop& stop : stops) {
-    const int stretch = StretchOf(w, stop.position_m);
+  for (const int cell : cells) {
+    const int stretch = StretchOf(w, cell);
     if (stretch >= 0 && (best < 0 || count[stretch] > count[best])) best = stretch;
   }
   return best;
@@ -302,18 +299,20 @@ void PlaceStops(const VisitorInTown& v) {
   const Walkable& w = v.town.walkable;
   const std::vector<TourStop>& stops = v.visitor.tour.stops;
   if (stops.empty()) return;
-  const int stretch = StretchOfMost(stops, w);
+  std::vector<int> cells;
+  for (const TourStop& stop : stops) cells.push_back(FreeCellFor(w, stop.position_m));
+  const int stretch = StretchOfMost(w, cells);
   std::vector<TourStop> kept;
   std::vector<size_t> left_out, moved;
   for (size_t k = 0; k < stops.size(); ++k) {
     TourStop stop = stops[k];
-    if (stretch < 0 || StretchOf(w, stop.position_m) != stretch) {
+    if (stretch < 0 || StretchOf(w, cells[k]) != stretch) {
       left_out.push_back(k + 1);
       continue;
     }
     if (!IsFree(w, stop.position_m)) {
       moved.push_back(k + 1);
-      stop.position_m = CellCenter(w, FreeCellFor(w, stop.position_m));
+      stop.position_m = CellCenter(w, cells[k]);
     }
     if (!stop.yaw_rad) stop.yaw_rad = OpenestView_rad(w, stop.position_m);
     kept.push_back(std::move(stop));
