@@ -11,7 +11,8 @@ namespace flaneur {
 namespace {
 
 constexpr float kMargin = 0.08f;  // of the height, above and below
-constexpr float kWidth = 0.85f;   // of a view, against its height
+constexpr float kWidth = 0.85f;   // of a view, against its height, at least
+constexpr float kWidest = 4;      // the same, at most
 constexpr float kAmbient = 0.45f;
 constexpr Vec3 kLight{0.35f, 0.6f, 0.72f};  // towards it, as seen
 constexpr int kPicture_px = 256;            // that materials' pictures are looked up in
@@ -38,6 +39,30 @@ std::vector<Look> LooksOf(const Avatar& avatar) {
   return looks;
 }
 
+// As seen from `yaw_deg` to the left of the front, +Z towards the eye.
+Vec3 Seen(Vec3 p, float yaw_deg) {
+  const float yaw = yaw_deg * kPi / 180, c = std::cos(yaw), s = std::sin(yaw);
+  return {c * p.x - s * p.z, p.y, s * p.x + c * p.z};
+}
+
+// What a view must show to both sides of its middle and above the ground, in metres.
+struct Reach {
+  float aside_m = 0, up_m = 0;
+};
+
+Reach ReachOf(const std::vector<std::vector<Mesh>>& posed, const std::vector<FigureView>& views) {
+  Reach reach;
+  for (size_t v = 0; v < views.size(); ++v) {
+    for (const Mesh& mesh : posed[v]) {
+      for (const Vec3 position : mesh.positions) {
+        const Vec3 p = Seen(position, views[v].yaw_deg);
+        reach = {std::max(reach.aside_m, std::abs(p.x)), std::max(reach.up_m, p.y)};
+      }
+    }
+  }
+  return reach;
+}
+
 struct Corner {
   float x = 0, y = 0, depth = 0, shade = 0;
   Vec2 uv;
@@ -46,11 +71,13 @@ struct Corner {
 
 class Canvas {
  public:
-  Canvas(int views, float height_m, int height_px)
-      : width_(static_cast<int>(kWidth * static_cast<float>(height_px))),
-        height_(height_px),
+  Canvas(int views, Reach reach, int height_px)
+      : height_(height_px),
+        scale_(static_cast<float>(height_px) * (1 - 2 * kMargin) / std::max(reach.up_m, 0.01f)),
+        width_(static_cast<int>(std::clamp(2 * scale_ * reach.aside_m + 2 * kMargin * static_cast<float>(height_px),
+                                           kWidth * static_cast<float>(height_px),
+                                           kWidest * static_cast<float>(height_px)))),
         pixels_(Blank(width_ * std::max(views, 1), height_px)),
-        scale_(static_cast<float>(height_px) * (1 - 2 * kMargin) / std::max(height_m, 0.01f)),
         depths_(static_cast<size_t>(pixels_.width) * static_cast<size_t>(pixels_.height), -1e30f) {
     const int ground =
         std::clamp(height_ - 1 - static_cast<int>(kMargin * static_cast<float>(height_)), 0, height_ - 1);
@@ -58,16 +85,14 @@ class Canvas {
   }
 
   void Draw(const Mesh& mesh, const Look* look, int view, float yaw_deg) {
-    const float yaw = yaw_deg * kPi / 180, c = std::cos(yaw), s = std::sin(yaw);
     std::vector<Corner> corners(mesh.positions.size());
     for (size_t v = 0; v < corners.size(); ++v) {
-      const auto seen = [&](Vec3 p) { return Vec3{c * p.x - s * p.z, p.y, s * p.x + c * p.z}; };
-      const Vec3 p = seen(mesh.positions[v]);
+      const Vec3 p = Seen(mesh.positions[v], yaw_deg);
       Corner& corner = corners[v];
       corner.x = static_cast<float>(view * width_) + 0.5f * static_cast<float>(width_) + scale_ * p.x;
       corner.y = (1 - kMargin) * static_cast<float>(height_) - scale_ * p.y;
       corner.depth = p.z;
-      const float lit = Dot(seen(mesh.normals[v]), kLight);
+      const float lit = Dot(Seen(mesh.normals[v], yaw_deg), kLight);
       corner.shade = kAmbient + (1 - kAmbient) * std::abs(lit) * (lit < 0 ? 0.5f : 1.0f);
       if (!mesh.uvs.empty()) corner.uv = mesh.uvs[v];
       if (!mesh.colors.empty())
@@ -142,9 +167,10 @@ class Canvas {
             static_cast<float>(in[3]) / 255};
   }
 
-  int width_, height_;
-  Pixels pixels_;
+  int height_;
   float scale_;
+  int width_;
+  Pixels pixels_;
   std::vector<float> depths_;
 };
 
@@ -153,11 +179,18 @@ class Canvas {
 Pixels DrawFigures(const std::vector<Mesh>& meshes, const Avatar& avatar, const std::vector<FigureView>& views,
                    float height_m, int height_px) {
   const std::vector<Look> looks = LooksOf(avatar);
-  Canvas canvas(Count(views), height_m, height_px);
+  std::vector<std::vector<Mesh>> posed;
+  for (const FigureView& view : views) {
+    posed.emplace_back();
+    for (const Mesh& mesh : meshes) posed.back().push_back(Skinned(mesh, view.pose));
+  }
+  Reach reach = ReachOf(posed, views);
+  reach.up_m = std::max(reach.up_m, height_m);
+  Canvas canvas(Count(views), reach, height_px);
   for (int v = 0; v < Count(views); ++v) {
-    for (const Mesh& mesh : meshes) {
+    for (const Mesh& mesh : At(posed, v)) {
       const Look* look = InRange(looks, mesh.material) ? &At(looks, mesh.material) : nullptr;
-      canvas.Draw(Skinned(mesh, At(views, v).pose), look, v, At(views, v).yaw_deg);
+      canvas.Draw(mesh, look, v, At(views, v).yaw_deg);
     }
   }
   return canvas.Take();

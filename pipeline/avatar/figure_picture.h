@@ -15,8 +15,9 @@ struct FigureView {
   float yaw_deg = 0;
 };
 
-// The views side by side, each `height_px` high for figures of up to `height_m` with a margin, the ground drawn as a
-// line at y = 0. Pictures of materials show; what they hide does not.
+// The views side by side, each `height_px` high and as wide as what reaches farthest to a side, up to four times its
+// height, the ground drawn as a line at y = 0. One scale for all: of `height_m`, or of what reaches higher, with a
+// margin. Pictures of materials show; what they hide does not.
 Pixels DrawFigures(const std::vector<Mesh>& meshes, const Avatar& avatar, const std::vector<FigureView>& views,
                    float height_m, int height_px);
 

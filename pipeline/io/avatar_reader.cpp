@@ -21,6 +21,7 @@
 #include "pipeline/rig/motion_quality.h"
 #include "pipeline/rig/plant_feet.h"
 #include "pipeline/rig/retarget.h"
+#include "pipeline/rig/still_legs.h"
 #include "runtime/base/array.h"
 #include "runtime/base/file.h"
 #include "runtime/base/text.h"
@@ -97,6 +98,7 @@ class AvatarReader {
   bool HangsOnLeg(const Part& part) const;
   Mesh* MergedMesh(int material, std::vector<Mesh>* meshes) const;
   void WarnOfFullHands() const;
+  Error JudgeLoneWalk(const Rig& rig);
   Error AddClips();
   float ToldSpeed() const;
   void PlantWalk(const Rig& rig, Retargeted* walk);
@@ -549,8 +551,35 @@ Error AvatarReader::FitClip(const ChosenClip& chosen, const Rig* rig, const std:
           " joints have names of its");
     }
   }
+  const Clip* const walk = FindClip(*avatar_, "walk");
+  if (rig != nullptr && clips_.shipped == chosen.file && walk != nullptr && Sits(*rig, *walk))
+    KeepSeated(*rig, *walk, &made.clip);
   made.clip.name = chosen.name;
   avatar_->clips.push_back(std::move(made.clip));
+  return Ok();
+}
+
+// A person's only clip is no walk where its name says so or they stand in it. Who sits in it has wheels or hooves.
+Error AvatarReader::JudgeLoneWalk(const Rig& rig) {
+  const auto walk =
+      std::find_if(clips_.clips.begin(), clips_.clips.end(), [](const ChosenClip& c) { return c.name == "walk"; });
+  if (!clips_.lone_walk || walk == clips_.clips.end()) return Ok();
+  Clip clip;
+  std::string name;
+  if (walk->file < 0) {
+    const DocumentClip& own = document_.clips[walk->index];
+    name = own.name;
+    if (Error e = SampleClip(document_, own, avatar_->joints, joint_nodes_, to_metres_, &clip)) return e;
+    DropRestPose(avatar_->joints, &clip);
+  } else {
+    name = At(clips_.files, walk->file).clip_names[walk->index];
+  }
+  const bool named_otherwise = IsNoWalk(name);
+  if (Sits(rig, clip) || (!named_otherwise && (clip.keys == 0 || !KeepsLegsStill(rig, clip)))) return Ok();
+  clips_ = {};
+  if (Error e = ChooseClips(document_, options_, named_otherwise ? LoneClip::kNone : LoneClip::kIdle, &clips_))
+    return e;
+  clips_.missing = Quoted(name) + (named_otherwise ? " is none by its name" : " moves no leg");
   return Ok();
 }
 
@@ -567,6 +596,9 @@ Error AvatarReader::AddClips() {
   Rig rig;
   std::string why;
   const bool human = MakeRig(*avatar_, Told(), &rig, &why);
+  if (human) {
+    if (Error e = JudgeLoneWalk(rig)) return e;
+  }
   for (const ChosenClip& chosen : clips_.clips) {
     if (chosen.file < 0) {
       Clip clip;
@@ -638,7 +670,7 @@ void AvatarReader::DropUnusedMaterials() {
 
 Error AvatarReader::Read() {
   if (Error e = CheckSkins(document_)) return e;
-  if (Error e = ChooseClips(document_, options_, &clips_)) return e;
+  if (Error e = ChooseClips(document_, options_, LoneClip::kWalk, &clips_)) return e;
   if (Error e = FindParts()) return e;
   if (Error e = FindJoints()) return e;
   FindBindPose();

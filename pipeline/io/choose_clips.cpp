@@ -45,11 +45,12 @@ bool Moves(const DocumentClip& clip) {
 // Whether a name says that something else is done than strolling, standing or talking through a town.
 bool SaysMore(const std::string& name) {
   static constexpr std::string_view kOthers[] = {
-      "aim",    "attack", "back",     "backward", "backwards", "block", "bow",     "carry",  "climb",  "combat",
-      "crawl",  "crouch", "dead",     "death",    "die",       "fall",  "falling", "fight",  "fly",    "gun",
-      "hang",   "hit",    "jump",     "left",     "lie",       "lying", "melee",   "pistol", "ranged", "ride",
-      "riding", "rifle",  "right",    "shield",   "shoot",     "sit",   "sitting", "sleep",  "sneak",  "spear",
-      "strafe", "swim",   "swimming", "sword",    "weapon",    "zombie"};
+      "aim",    "attack", "back",   "backward", "backwards", "block",    "bow",    "carry",  "cheer",  "clap",
+      "climb",  "combat", "crawl",  "crouch",   "dance",     "dancing",  "dead",   "death",  "die",    "fall",
+      "falling", "fight", "fly",    "gun",      "hang",      "hit",      "jump",   "left",   "lie",    "lying",
+      "melee",  "pistol", "ranged", "ride",     "riding",    "rifle",    "right",  "shield", "shoot",  "sit",
+      "sitting", "sleep", "sneak",  "spear",    "strafe",    "swim",     "swimming", "sword", "wave",  "waving",
+      "weapon", "zombie"};
   const std::vector<std::string> words = NameWords(name);
   return std::find_first_of(words.begin(), words.end(), std::begin(kOthers), std::end(kOthers)) != words.end();
 }
@@ -126,8 +127,8 @@ int NamedClip(const std::vector<std::string>& names, const std::string& wanted) 
 
 class Chooser {
  public:
-  Chooser(const GltfDocument& document, const ReadAvatarOptions& options, ClipChoice* choice)
-      : document_(document), options_(options), choice_(*choice) {
+  Chooser(const GltfDocument& document, const ReadAvatarOptions& options, LoneClip lone, ClipChoice* choice)
+      : document_(document), options_(options), lone_(lone), choice_(*choice) {
     for (const DocumentClip& clip : document.clips) own_.push_back(clip.name);
   }
 
@@ -220,6 +221,7 @@ class Chooser {
       return Ok();
     }
     if (name == "walk") return ChooseAnyWalk();
+    if (name == "idle" && lone_ == LoneClip::kIdle && TakeLone(name)) return Ok();
     if (name == "talk" && !choice_.shipped_idle) return Ok();  // talks as they stand
     int shipped = -1;
     if (Error e = OpenOnce(kShipped, &shipped)) return e;
@@ -228,14 +230,20 @@ class Chooser {
     return Ok();
   }
 
-  Error ChooseAnyWalk() {
+  bool TakeLone(const std::string& name) {
     std::vector<int> files = library_;
     files.push_back(-1);
     for (const int file : files) {
       if (NamesIn(file).size() != 1 || !MovesIn(file, 0)) continue;
-      Take("walk", file, 0);
-      return Ok();
+      Take(name, file, 0);
+      return true;
     }
+    return false;
+  }
+
+  Error ChooseAnyWalk() {
+    choice_.lone_walk = lone_ == LoneClip::kWalk && TakeLone("walk");
+    if (choice_.lone_walk) return Ok();
     choice_.missing = "the file has: " + Listed(own_) + (own_.empty() ? "" : "; name the one to walk with");
     if (const int still = GuessClip(own_, "walk"); still >= 0)
       choice_.missing = Quoted(At(own_, still)) + " moves nothing";
@@ -281,6 +289,7 @@ class Chooser {
 
   const GltfDocument& document_;
   const ReadAvatarOptions& options_;
+  const LoneClip lone_;
   ClipChoice& choice_;
   std::vector<std::string> own_;
   std::vector<int> library_;  // of the choice's files: where all clips are looked for
@@ -288,8 +297,15 @@ class Chooser {
 
 }  // namespace
 
-Error ChooseClips(const GltfDocument& document, const ReadAvatarOptions& options, ClipChoice* choice) {
-  return Chooser(document, options, choice).Choose();
+Error ChooseClips(const GltfDocument& document, const ReadAvatarOptions& options, LoneClip lone, ClipChoice* choice) {
+  return Chooser(document, options, lone, choice).Choose();
+}
+
+bool IsNoWalk(const std::string& name) {
+  static constexpr std::string_view kOthers[] = {"run", "running", "jog", "jogging", "pose", "tpose", "apose"};
+  const std::vector<std::string> words = NameWords(name);
+  return SaysMore(name) || GuessClip({name}, "idle") >= 0 || GuessClip({name}, "talk") >= 0 ||
+         std::find_first_of(words.begin(), words.end(), std::begin(kOthers), std::end(kOthers)) != words.end();
 }
 
 }  // namespace flaneur

@@ -1,5 +1,6 @@
 // Which clip of which file becomes a person's walk, idle, talk and all else they do.
 #pragma once
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -19,13 +20,20 @@ struct ClipChoice {
   std::vector<ChosenClip> clips;
   std::vector<MotionFile> files;
   int shipped = -1;           // of files: those that come with the program, where any is needed
+  bool lone_walk = false;     // the one clip there is, whatever its name says
   bool shipped_walk = false;  // for want of another
   bool shipped_idle = false;  // the same; then `talk` too
   std::string missing;        // what the avatar's own file has instead of a walk
 };
 
+// What a clip becomes that is the only one of its file, and is not named as a walk.
+enum class LoneClip : uint8_t { kWalk, kIdle, kNone };
+
 // As ReadAvatarOptions says. A clip that moves nothing is none. Errors: a clip that is named and nowhere, a file that
 // cannot be read.
-Error ChooseClips(const GltfDocument& document, const ReadAvatarOptions& options, ClipChoice* choice);
+Error ChooseClips(const GltfDocument& document, const ReadAvatarOptions& options, LoneClip lone, ClipChoice* choice);
+
+// Whether a clip's name says that something else is done than walking: standing, talking, dancing, a pose.
+bool IsNoWalk(const std::string& name);
 
 }  // namespace flaneur

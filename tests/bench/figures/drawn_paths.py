@@ -19,6 +19,9 @@ class Town:
 
     def __init__(self, tour):
         self.obstacles = judge.boxed_obstacles({"features": [feature(o) for o in tour["obstacles"]]})
+        ground = tour["ground"]
+        self.ground = [(low, low + cells * ground["cell_m"])
+                       for low, cells in zip(ground["min_m"], (ground["columns"], ground["rows"]))]
         doors = [p["position_m"] for p in tour["places"] if p["kind"] in ("door", "exit")]
         loiter = [p["position_m"] for p in tour["places"] if p["kind"] == "loiter"]
         spots = [h["position_m"] for h in tour.get("hotspots", [])]
@@ -29,7 +32,8 @@ class Town:
         self.squares = spots + loiter or self.places
 
     def is_free(self, a, b, clearance_m=CLEARANCE_M):
-        return is_free(a, b, self.obstacles, clearance_m)
+        on_ground = all(low + clearance_m < v < high - clearance_m for p in (a, b) for v, (low, high) in zip(p, self.ground))
+        return on_ground and is_free(a, b, self.obstacles, clearance_m)
 
     def near(self, dice, places, most_m=6):
         """A free place by one of these."""

@@ -9,7 +9,7 @@ from figures import drawn_paths  # noqa: E402
 
 HOUSE = {"name": "house", "kind": "building", "outer_m": [[-12, 4], [-4, 4], [-4, 12], [-12, 12]]}
 WELL = {"name": "well", "kind": "well", "center_m": [0, 0], "radius_m": 1.0}
-TOUR = {"obstacles": [HOUSE, WELL], "path": [{"position_m": [-10, -10]}, {"position_m": [15, 2]}],
+TOUR = {"ground": {"min_m": [-20, -20], "cell_m": 0.5, "columns": 80, "rows": 70}, "obstacles": [HOUSE, WELL], "path": [{"position_m": [-10, -10]}, {"position_m": [15, 2]}],
         "places": [{"kind": "loiter", "position_m": [0, 2]}, {"kind": "door", "position_m": [-8, 4]}]}
 
 
@@ -32,6 +32,14 @@ class DrawnPaths(unittest.TestCase):
                 for (ax, ay), (bx, by) in zip(way, way[1:]):
                     self.assertFalse(in_house(((ax + bx) / 2, (ay + by) / 2)), "through the house")
 
+    def test_nobody_walks_off_the_ground(self):
+        for name, text in drawn_paths.drawn(TOUR, 4 * len(drawn_paths.KINDS), 9):
+            with self.subTest(name):
+                scenario = tomllib.loads(text)
+                places = [scenario["camera"]["position_m"]] + [leg["walk_to_m"] for leg in scenario["camera"]["leg"] if "walk_to_m" in leg]
+                places += [goal for person in scenario.get("person", []) for goal in person["goals_m"]]
+                self.assertEqual([p for p in places if not (-20 < p[0] < 20 and -20 < p[1] < 15)], [])
+
     def test_the_seed_alone_decides(self):
         self.assertEqual(drawn_paths.drawn(TOUR, 12, 3), drawn_paths.drawn(TOUR, 12, 3))
         self.assertNotEqual([text for _, text in drawn_paths.drawn(TOUR, 12, 3)], [text for _, text in drawn_paths.drawn(TOUR, 12, 4)])
@@ -41,7 +49,7 @@ class DrawnPaths(unittest.TestCase):
         with self.assertRaises(ValueError):
             drawn_paths.drawn(full, 3, 1)
         with self.assertRaises(ValueError):
-            drawn_paths.drawn({"obstacles": [], "places": []}, 3, 1)
+            drawn_paths.drawn({**TOUR, "obstacles": [], "path": [], "places": []}, 3, 1)
 
 
 if __name__ == "__main__":

@@ -342,6 +342,27 @@ TEST_F(AvatarFile, WhoHasNoClipsWalksByThoseThatComeWithTheProgram) {
   EXPECT_NE(FindClip(avatar_, "sweep"), nullptr);
 }
 
+// A figure downloaded with its stance alone does not glide by it.
+TEST_F(AvatarFile, WhoseOnlyClipIsAStanceWalksByOneThatComesWithTheProgram) {
+  for (const char* const name : {"Idle", "mixamo.com"}) {
+    Avatar person = MadeHuman({});
+    Clip stance = MadeWalk(person);
+    stance.name = name;
+    for (size_t i = 0; i < stance.transforms.size(); ++i) {
+      const size_t joint = i % person.joints.size();
+      if (joint == 0 || joint >= 10) stance.transforms[i] = person.joints[joint].rest;
+    }
+    person.clips = {stance};
+    ASSERT_EQ(Read(Write(person)), "");
+    ExpectWalks(avatar_);
+    ASSERT_NE(FindClip(avatar_, "idle"), nullptr);
+    EXPECT_NEAR(FindClip(avatar_, "idle")->duration_s, stance.duration_s, 0.05f) << "it stands by it";
+    EXPECT_TRUE(std::any_of(warnings_.begin(), warnings_.end(), [&](const std::string& w) {
+      return w.find("it has no walk clip ('" + std::string(name) + "' ") != std::string::npos;
+    })) << name;
+  }
+}
+
 // As figures of a toy set are, each file in itself a person.
 TEST_F(AvatarFile, WhoIsSmallerThanAChildWhoWalksOrTallerThanPeopleInHatsIsAskedAbout) {
   const auto asked = [&] {

@@ -22,7 +22,7 @@ std::map<std::string, std::string> Chosen(const std::vector<std::string>& names)
   GltfDocument document;
   for (const std::string& name : names) document.clips.push_back(Moving(name));
   ClipChoice choice;
-  EXPECT_EQ(ChooseClips(document, ReadAvatarOptions(), &choice).message, "");
+  EXPECT_EQ(ChooseClips(document, ReadAvatarOptions(), LoneClip::kWalk, &choice).message, "");
   std::map<std::string, std::string> chosen;
   for (const ChosenClip& clip : choice.clips)
     if (clip.file < 0) chosen[clip.name] = names[clip.index];
@@ -61,13 +61,36 @@ TEST(ChooseClips, WhoOnlyWalksStandsByWhatComesWithTheProgram) {
   GltfDocument document;
   document.clips = {Moving("mixamo.com")};
   ClipChoice choice;
-  ASSERT_EQ(ChooseClips(document, ReadAvatarOptions(), &choice).message, "");
+  ASSERT_EQ(ChooseClips(document, ReadAvatarOptions(), LoneClip::kWalk, &choice).message, "");
   ASSERT_EQ(choice.clips.size(), 3u);
   EXPECT_TRUE(choice.shipped_idle && !choice.shipped_walk);
   document.clips.push_back(Moving("idle"));
   choice = {};
-  ASSERT_EQ(ChooseClips(document, ReadAvatarOptions(), &choice).message, "");
+  ASSERT_EQ(ChooseClips(document, ReadAvatarOptions(), LoneClip::kWalk, &choice).message, "");
   EXPECT_EQ(choice.clips.size(), 2u) << "who has an idle of their own talks as they stand";
+}
+
+// Mixamo calls a stance `mixamo.com` as it does a walk; an Idle says what it is.
+TEST(ChooseClips, ALoneClipIsWhatOneSaysItIs) {
+  const auto chosen = [](const std::string& name, LoneClip lone) {
+    GltfDocument document;
+    document.clips = {Moving(name)};
+    ClipChoice choice;
+    EXPECT_EQ(ChooseClips(document, ReadAvatarOptions(), lone, &choice).message, "");
+    std::string own;
+    for (const ChosenClip& clip : choice.clips) own += clip.file < 0 ? clip.name : "";
+    EXPECT_EQ(choice.shipped_walk, lone != LoneClip::kWalk) << name;
+    EXPECT_EQ(choice.lone_walk, lone == LoneClip::kWalk) << name;
+    return own;
+  };
+  EXPECT_EQ(chosen("mixamo.com", LoneClip::kWalk), "walk");
+  EXPECT_EQ(chosen("mixamo.com", LoneClip::kIdle), "idle");
+  EXPECT_EQ(chosen("mixamo.com", LoneClip::kNone), "");
+  EXPECT_EQ(chosen("Idle", LoneClip::kNone), "idle");
+  for (const char* name : {"Idle", "Armature|Standing", "Talking", "T-Pose", "Dance_01", "Attack", "run", "待機"})
+    EXPECT_TRUE(IsNoWalk(name)) << name;
+  for (const char* name : {"mixamo.com", "Take 001", "Armature|ArmatureAction", "animation_0", "Marche", ""})
+    EXPECT_FALSE(IsNoWalk(name)) << name;
 }
 
 }  // namespace
