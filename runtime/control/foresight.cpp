@@ -4,6 +4,7 @@
 #include <bit>
 #include <cmath>
 
+#include "runtime/base/random.h"
 #include "runtime/crowd/fast_math.h"
 
 namespace flaneur {
@@ -13,12 +14,13 @@ using State = ForesightState;
 using Forecast = State::Forecast;
 
 constexpr int kPlanEvery_steps = 5;
-constexpr float kMoment_s = 0.5f;                       // between the moments looked at
-constexpr int kTurnMoments[State::kTurns] = {0, 2, 4};  // the first is now
-constexpr float kReach_m = 8;                           // beyond r_high: who may be inside within the foresight
-constexpr float kRim_m = 0.6f;                          // the forecast is that uncertain
-constexpr float kReserve = 0.06f;                       // share of the limit kept free for surprises
-constexpr float kTurnLasts_s = 1.0f;                    // a turn of the head dies away
+constexpr float kMoment_s = 0.5f;                          // between the moments looked at
+constexpr int kTurnMoments[State::kTurns] = {0, 2, 4};     // the first is now
+constexpr float kReach_m = 8;                              // beyond r_high: who may be inside within the foresight
+constexpr float kNearestRim = -0.1f, kFarthestRim = 0.3f;  // of r_high: how much farther out people keep
+constexpr float kRim_m = 0.6f;                             // the forecast is that uncertain
+constexpr float kReserve = 0.06f;                          // share of the limit kept free for surprises
+constexpr float kTurnLasts_s = 1.0f;                       // a turn of the head dies away
 constexpr float kWalksOn_m = 8;
 constexpr float kWalksOn_s = 0.5f;                           // in the new direction after a turn
 constexpr float kLeans_s = 2.0f;                             // a choice holds so long
@@ -81,6 +83,12 @@ bool InView(const State& state, int moment, float r_high_m, Vec2 p, float body_m
 bool InTurningReach(const State& state, float r_high_m, Vec2 off) {
   const float reach_m = r_high_m + std::min(state.walks_on_s * state.speed_mps, kWalksOn_m);
   return Dot(off, off) < reach_m * reach_m;
+}
+
+// Beyond it this person does not mind a full view. Were it the same for all, those who keep out would stand in a ring.
+float OwnReach_m(const Crowd& c, size_t i, const ControlSettings& s) {
+  const float farther = kNearestRim + (kFarthestRim - kNearestRim) * Random{static_cast<uint64_t>(c.id[i])}.Uniform();
+  return s.r_high_m * (1 + s.discretion * farther);
 }
 
 Vec2 OwnWay(const Crowd& c, size_t i) {
@@ -172,15 +180,15 @@ float TimesInTheWay(const Crowd& c, size_t i, Vec2 velocity, const Forecast& f, 
 }
 
 // The same with another velocity, counted no further than `enough`. Where the person is now they are with any velocity.
-float TimesInTheWay(const Crowd& c, size_t i, Vec2 velocity, const Forecast& f, const ControlSettings& s, float enough,
-                    const State& state) {
+float TimesInTheWay(const Crowd& c, size_t i, Vec2 velocity, const Forecast& f, const ControlSettings& s, float reach_m,
+                    float enough, const State& state) {
   float times = BlockingCounts(c, i, velocity, s, state);
   for (uint32_t left = state.overfull_moments; left != 0 && times < enough; left &= left - 1) {
-    if (WouldBeInView(c, i, velocity, s.r_high_m, std::countr_zero(left), state)) ++times;
+    if (WouldBeInView(c, i, velocity, reach_m, std::countr_zero(left), state)) ++times;
   }
   for (int k = 0; k < State::kTurns && times < enough; ++k) {
     if (!(state.overfull_turns >> k & 1)) continue;
-    const int sector = k == 0 ? f.sector[0] : WouldBeInSector(c, i, velocity, s.r_high_m, k, state);
+    const int sector = k == 0 ? f.sector[0] : WouldBeInSector(c, i, velocity, reach_m, k, state);
     times += ExcessCounts(c, i, static_cast<size_t>(k), sector, state);
   }
   return times;
@@ -208,14 +216,15 @@ Vec2 Leant(Vec2 own, const State::Lean& lean, float top_mps) {
 
 bool IsStraight(const State::Memory& m) { return m.now == State::Lean{} && m.wanted == State::Lean{}; }
 
-void Consider(const Walkable& w, const ControlSettings& s, size_t i, const Forecast& forecast, Crowd* crowd,
-              State* state) {
+void Consider(const Walkable& w, const ControlSettings& s, size_t i, Crowd* crowd, State* state) {
   Crowd& c = *crowd;
   State::Memory& m = MemoryOf(c, i, state);
   const Vec2 own = OwnWay(c, i);
+  const float reach_m = OwnReach_m(c, i, s);
+  const Forecast forecast = Forecasted(c, i, Desired(c, i), reach_m, *state);
   const float now = TimesInTheWay(c, i, Desired(c, i), forecast, s, *state);
   if (now == 0) {  // what goes well ends only when the own way is free again: nobody wavers
-    if (!(m.wanted == State::Lean{}) && TimesInTheWay(c, i, own, forecast, s, kAny, *state) > 0 &&
+    if (!(m.wanted == State::Lean{}) && TimesInTheWay(c, i, own, forecast, s, reach_m, kAny, *state) > 0 &&
         CanWalk(w, c.position[i], Desired(c, i) * kAheadFree_s))
       m.left_s = kLeans_s;
     return;
@@ -231,7 +240,8 @@ void Consider(const Walkable& w, const ControlSettings& s, size_t i, const Forec
       const float at_best = now - freedom.cost * (std::abs(turn - m.wanted.turn_rad) + change);
       if (at_best <= best.gain) continue;
       const Vec2 velocity = Leant(own, {turn, pace}, c.top_mps[i]);
-      const float gain = at_best - TimesInTheWay(c, i, velocity, forecast, s, at_best - best.gain + kAny, *state);
+      const float gain =
+          at_best - TimesInTheWay(c, i, velocity, forecast, s, reach_m, at_best - best.gain + kAny, *state);
       if (gain > best.gain && CanWalk(w, c.position[i], velocity * kAheadFree_s))
         best.gain = gain, best.lean = {turn, pace};
     }
@@ -247,9 +257,9 @@ void Choose(const ControlSettings& s, float fov_rad, int capacity, Crowd* c, Sta
   for (const State::Choice& choice : state->choices) {
     const size_t i = static_cast<size_t>(choice.person);
     const Vec2 desired = Desired(*c, i);
-    const Forecast forecast = Forecasted(*c, i, desired, s.r_high_m, *state);
-    if (TimesInTheWay(*c, i, desired, forecast, s, *state) == 0) continue;  // others have made room
-    Tally(forecast, -1, state);
+    const Forecast minded = Forecasted(*c, i, desired, OwnReach_m(*c, i, s), *state);
+    if (TimesInTheWay(*c, i, desired, minded, s, *state) == 0) continue;  // others have made room
+    Tally(Forecasted(*c, i, desired, s.r_high_m, *state), -1, state);
     State::Memory& m = MemoryOf(*c, i, state);
     m.wanted = choice.lean;
     m.left_s = kLeans_s;
@@ -299,15 +309,13 @@ void Foresee(const ViewCamera& camera, const ViewMotion& motion, const Walkable&
   for (size_t i = 0; i < c->size(); ++i) {
     const Vec2 off = c->position[i] - camera.position;
     if (Dot(off, off) > reach_m * reach_m) continue;
-    const Forecast forecast = Forecasted(*c, i, Desired(*c, i), s.r_high_m, *state);
-    state->near.push_back({static_cast<int>(i), forecast});
-    Tally(forecast, 1, state);
+    state->near.push_back(i);
+    Tally(Forecasted(*c, i, Desired(*c, i), s.r_high_m, *state), 1, state);
   }
   MeasureExcess(camera.fov_rad, capacity, state);
-  for (const State::Near& n : state->near) {
-    const size_t i = static_cast<size_t>(n.person);
+  for (const size_t i : state->near) {
     if (c->activity[i] != Activity::kWorking && MemoryOf(*c, i, state).left_s <= 0.5f * kLeans_s)
-      Consider(walkable, s, i, n.forecast, c, state);
+      Consider(walkable, s, i, c, state);
   }
   Choose(s, camera.fov_rad, capacity, c, state);
 }

@@ -35,11 +35,7 @@ struct ForesightState {
     uint32_t in_view = 0;                             // a bit for every moment
     std::array<int8_t, kTurns> sector{-1, -1, -1};    // none where they are out of reach then
   };
-  struct Near {
-    int person = 0;
-    Forecast forecast;
-  };
-  std::vector<Near> near;
+  std::vector<size_t> near;
   struct Lean {  // how somebody walks, relative to their own way
     float turn_rad = 0, pace = 1;
 

@@ -87,5 +87,32 @@ TEST(Foresight, OutOfReachNobodyIsTouched) {
   EXPECT_EQ(Detours(crowd), 0);
 }
 
+// How many of 60 who walk by at this distance from a visitor with a full view keep farther out.
+int MindingAt(float away_m) {
+  const Walkable w = OpenField();
+  Crowd crowd;
+  for (int i = 0; i < 30; ++i) {
+    AddWalker({5.0f + 0.7f * static_cast<float>(i / 6), 0.7f * static_cast<float>(i % 6) - 2}, &crowd);
+    crowd.field.back() = -1;
+  }
+  for (int i = 0; i < 60; ++i) {
+    AddWalker({away_m, 0.1f * static_cast<float>(i % 10)}, &crowd);
+    crowd.way.back() = {0, 1};
+  }
+  ForesightState state;
+  Foresee(ViewCamera{}, {}, w, ControlSettings{}, ControlSettings{}.high_limit, &crowd, &state);
+  return Detours(crowd);
+}
+
+// All at one distance would stand in a ring there.
+TEST(Foresight, PeopleKeepOutOfAFullViewEachAtTheirOwnDistance) {
+  const float r_high_m = ControlSettings{}.r_high_m;
+  const int near = MindingAt(1.07f * r_high_m), far = MindingAt(1.2f * r_high_m);
+  EXPECT_GT(near, 20);
+  EXPECT_GT(far, 5);
+  EXPECT_LT(far, near);
+  EXPECT_EQ(MindingAt(1.45f * r_high_m), 0);
+}
+
 }  // namespace
 }  // namespace flaneur
