@@ -45,12 +45,12 @@ bool Moves(const DocumentClip& clip) {
 // Whether a name says that something else is done than strolling, standing or talking through a town.
 bool SaysMore(const std::string& name) {
   static constexpr std::string_view kOthers[] = {
-      "aim",    "attack", "back",   "backward", "backwards", "block",    "bow",    "carry",  "cheer",  "clap",
-      "climb",  "combat", "crawl",  "crouch",   "dance",     "dancing",  "dead",   "death",  "die",    "fall",
-      "falling", "fight", "fly",    "gun",      "hang",      "hit",      "jump",   "left",   "lie",    "lying",
-      "melee",  "pistol", "ranged", "ride",     "riding",    "rifle",    "right",  "shield", "shoot",  "sit",
-      "sitting", "sleep", "sneak",  "spear",    "strafe",    "swim",     "swimming", "sword", "wave",  "waving",
-      "weapon", "zombie"};
+      "aim",   "attack",   "back",    "backward", "backwards", "block",  "bow",     "carry",  "cheer",
+      "clap",  "climb",    "combat",  "crawl",    "crouch",    "dance",  "dancing", "dead",   "death",
+      "die",   "fall",     "falling", "fight",    "fly",       "gun",    "hang",    "hit",    "jump",
+      "left",  "lie",      "lying",   "melee",    "pistol",    "ranged", "ride",    "riding", "rifle",
+      "right", "shield",   "shoot",   "sit",      "sitting",   "sleep",  "sneak",   "spear",  "strafe",
+      "swim",  "swimming", "sword",   "wave",     "waving",    "weapon", "zombie"};
   const std::vector<std::string> words = NameWords(name);
   return std::find_first_of(words.begin(), words.end(), std::begin(kOthers), std::end(kOthers)) != words.end();
 }
@@ -230,9 +230,14 @@ class Chooser {
     return Ok();
   }
 
+  // The first file's that has one alone, of those whose name says nothing else before the others.
   bool TakeLone(const std::string& name) {
     std::vector<int> files = library_;
     files.push_back(-1);
+    std::stable_partition(files.begin(), files.end(), [&](int file) {
+      const std::vector<std::string>& names = NamesIn(file);
+      return names.size() == 1 && !IsNoWalk(names.front());
+    });
     for (const int file : files) {
       if (NamesIn(file).size() != 1 || !MovesIn(file, 0)) continue;
       Take(name, file, 0);

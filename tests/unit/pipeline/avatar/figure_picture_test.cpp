@@ -14,7 +14,8 @@ std::vector<int> DrawnColumns(const Pixels& picture, int first, int width) {
   std::vector<int> drawn;
   for (int x = 0; x < width; ++x) {
     for (int y = 0; y < picture.height / 2; ++y) {
-      const auto at = 4 * (static_cast<size_t>(y) * static_cast<size_t>(picture.width) + static_cast<size_t>(first + x));
+      const auto at =
+          4 * (static_cast<size_t>(y) * static_cast<size_t>(picture.width) + static_cast<size_t>(first + x));
       if (picture.rgba[at] == 255 && picture.rgba[at + 1] == 255 && picture.rgba[at + 2] == 255) continue;
       drawn.push_back(x);
       break;

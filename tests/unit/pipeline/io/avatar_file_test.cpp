@@ -363,6 +363,23 @@ TEST_F(AvatarFile, WhoseOnlyClipIsAStanceWalksByOneThatComesWithTheProgram) {
   }
 }
 
+// As Mixamo's files come: the figure with a walk that has no name of its own, a stance beside it.
+TEST_F(AvatarFile, AStanceInAnotherFileIsNotTakenForTheWalk) {
+  Avatar walker = MadeHuman({}), stander = MadeHuman({});
+  walker.clips = {MadeWalk(walker)};
+  walker.clips[0].name = "mixamo.com";
+  stander.clips = {MadeWalk(stander)};
+  stander.clips[0].name = "Idle";
+  stander.clips[0].duration_s = 3;
+  const fs::path clips = folder_ / "idle.glb";
+  ASSERT_EQ(WriteAvatarGlb(clips, OneLevel(stander)).message, "");
+  ReadAvatarOptions options;
+  options.clip_files = {clips};
+  ASSERT_EQ(Read(Write(walker), options), "");
+  EXPECT_NEAR(FindClip(avatar_, "walk")->duration_s, 1, 0.05f);
+  EXPECT_NEAR(FindClip(avatar_, "idle")->duration_s, 3, 0.05f);
+}
+
 // As figures of a toy set are, each file in itself a person.
 TEST_F(AvatarFile, WhoIsSmallerThanAChildWhoWalksOrTallerThanPeopleInHatsIsAskedAbout) {
   const auto asked = [&] {
