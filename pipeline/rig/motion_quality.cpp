@@ -229,12 +229,10 @@ float FootSlide(const Avatar& person, const Clip& walk, float speed_mps) {
 }
 
 float HipsHeight(const Rig& rig, const Clip& walk) {
-  const size_t joints = rig.joints.size();
   float sum = 0;
   std::vector<float> lowest;
   for (int k = 0; k < walk.keys; ++k) {
-    Pose pose = PoseOf(rig.joints, walk.transforms.data() + static_cast<size_t>(k) * joints);
-    TurnPose(rig.turn, &pose);
+    const Pose pose = PoseAt(rig, walk, k);
     lowest.push_back(1e30f);
     for (const RigLeg& leg : rig.legs) {
       sum += 0.5f * At(pose.positions, leg.upper).y / static_cast<float>(walk.keys);
@@ -248,8 +246,7 @@ float HipsHeight(const Rig& rig, const Clip& walk) {
 float PastLimits(const Rig& rig, const Clip& clip) {
   float worst = 0;
   for (int k = 0; k < clip.keys; ++k) {
-    Pose pose = PoseOf(rig.joints, clip.transforms.data() + static_cast<size_t>(k) * rig.joints.size());
-    TurnPose(rig.turn, &pose);
+    const Pose pose = PoseAt(rig, clip, k);
     for (const size_t side : {kLeft, kRight}) {
       worst = std::max({worst, LegPastLimits(rig, pose, side), ArmPastLimits(rig, pose, side)});
     }

@@ -321,6 +321,12 @@ float HighestHip(const RigLeg& leg, Vec3 off) {
   return std::sqrt(std::max(reach * reach - off.x * off.x - off.z * off.z, 0.01f * reach * reach));
 }
 
+Pose PoseAt(const Rig& rig, const Clip& clip, int key) {
+  Pose pose = PoseOf(rig.joints, clip.transforms.data() + static_cast<size_t>(key) * rig.joints.size());
+  TurnPose(rig.turn, &pose);
+  return pose;
+}
+
 bool BendsKnees(const Rig& rig) { return rig.legs[kLeft].shin_m > 0 && rig.legs[kRight].shin_m > 0; }
 
 bool MakeRig(const Avatar& person, const std::vector<NamedBone>& told, Rig* rig, std::string* why) {

@@ -71,6 +71,9 @@ struct Rig {
   float leg_m = 0;  // thigh and shin
 };
 
+// Of one key of a clip on the rig's joints in their own space, turned as the reference pose is.
+Pose PoseAt(const Rig& rig, const Clip& clip, int key);
+
 // Else legs are one bone each, and who walks on them floats or bobs.
 bool BendsKnees(const Rig& rig);
 

@@ -11,12 +11,6 @@ namespace {
 constexpr float kStill = 0.125f;  // of the leg's length; who strolls moves each ankle by half of it
 constexpr float kLies = 0.5f;     // of a thigh's length: how far the knee of who sits is below the hip at most
 
-Pose PoseAt(const Rig& rig, const Clip& clip, int key) {
-  Pose pose = PoseOf(rig.joints, clip.transforms.data() + static_cast<size_t>(key) * rig.joints.size());
-  TurnPose(rig.turn, &pose);
-  return pose;
-}
-
 }  // namespace
 
 bool KeepsLegsStill(const Rig& rig, const Clip& clip) {
