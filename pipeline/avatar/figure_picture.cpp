@@ -39,10 +39,14 @@ std::vector<Look> LooksOf(const Avatar& avatar) {
   return looks;
 }
 
-// As seen from `yaw_deg` to the left of the front, +Z towards the eye.
-Vec3 Seen(Vec3 p, float yaw_deg) {
-  const float yaw = yaw_deg * kPi / 180, c = std::cos(yaw), s = std::sin(yaw);
-  return {c * p.x - s * p.z, p.y, s * p.x + c * p.z};
+// In the view's pose and turned as it is seen, +Z towards the eye.
+Mesh Seen(const Mesh& mesh, const FigureView& view) {
+  const float yaw = view.yaw_deg * kPi / 180, c = std::cos(yaw), s = std::sin(yaw);
+  Mesh seen = Skinned(mesh, view.pose);
+  for (std::vector<Vec3>* const vectors : {&seen.positions, &seen.normals}) {
+    for (Vec3& v : *vectors) v = {c * v.x - s * v.z, v.y, s * v.x + c * v.z};
+  }
+  return seen;
 }
 
 // What a view must show to both sides of its middle and above the ground, in metres.
@@ -50,17 +54,8 @@ struct Reach {
   float aside_m = 0, up_m = 0;
 };
 
-Reach ReachOf(const std::vector<std::vector<Mesh>>& posed, const std::vector<FigureView>& views) {
-  Reach reach;
-  for (size_t v = 0; v < views.size(); ++v) {
-    for (const Mesh& mesh : posed[v]) {
-      for (const Vec3 position : mesh.positions) {
-        const Vec3 p = Seen(position, views[v].yaw_deg);
-        reach = {std::max(reach.aside_m, std::abs(p.x)), std::max(reach.up_m, p.y)};
-      }
-    }
-  }
-  return reach;
+void Widen(const Mesh& seen, Reach* reach) {
+  for (const Vec3 p : seen.positions) *reach = {std::max(reach->aside_m, std::abs(p.x)), std::max(reach->up_m, p.y)};
 }
 
 struct Corner {
@@ -84,15 +79,15 @@ class Canvas {
     for (int x = 0; x < pixels_.width; ++x) Set(x, ground, {0.75f, 0.75f, 0.75f});
   }
 
-  void Draw(const Mesh& mesh, const Look* look, int view, float yaw_deg) {
+  void Draw(const Mesh& mesh, const Look* look, int view) {
     std::vector<Corner> corners(mesh.positions.size());
     for (size_t v = 0; v < corners.size(); ++v) {
-      const Vec3 p = Seen(mesh.positions[v], yaw_deg);
+      const Vec3 p = mesh.positions[v];
       Corner& corner = corners[v];
       corner.x = static_cast<float>(view * width_) + 0.5f * static_cast<float>(width_) + scale_ * p.x;
       corner.y = (1 - kMargin) * static_cast<float>(height_) - scale_ * p.y;
       corner.depth = p.z;
-      const float lit = Dot(Seen(mesh.normals[v], yaw_deg), kLight);
+      const float lit = Dot(mesh.normals[v], kLight);
       corner.shade = kAmbient + (1 - kAmbient) * std::abs(lit) * (lit < 0 ? 0.5f : 1.0f);
       if (!mesh.uvs.empty()) corner.uv = mesh.uvs[v];
       if (!mesh.colors.empty())
@@ -179,18 +174,19 @@ class Canvas {
 Pixels DrawFigures(const std::vector<Mesh>& meshes, const Avatar& avatar, const std::vector<FigureView>& views,
                    float height_m, int height_px) {
   const std::vector<Look> looks = LooksOf(avatar);
-  std::vector<std::vector<Mesh>> posed;
-  for (const FigureView& view : views) {
-    posed.emplace_back();
-    for (const Mesh& mesh : meshes) posed.back().push_back(Skinned(mesh, view.pose));
+  std::vector<std::vector<Mesh>> seen(views.size());
+  Reach reach{0, height_m};
+  for (size_t v = 0; v < views.size(); ++v) {
+    for (const Mesh& mesh : meshes) {
+      seen[v].push_back(Seen(mesh, views[v]));
+      Widen(seen[v].back(), &reach);
+    }
   }
-  Reach reach = ReachOf(posed, views);
-  reach.up_m = std::max(reach.up_m, height_m);
   Canvas canvas(Count(views), reach, height_px);
   for (int v = 0; v < Count(views); ++v) {
-    for (const Mesh& mesh : At(posed, v)) {
+    for (const Mesh& mesh : At(seen, v)) {
       const Look* look = InRange(looks, mesh.material) ? &At(looks, mesh.material) : nullptr;
-      canvas.Draw(mesh, look, v, At(views, v).yaw_deg);
+      canvas.Draw(mesh, look, v);
     }
   }
   return canvas.Take();

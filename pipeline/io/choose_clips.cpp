@@ -42,6 +42,12 @@ bool Moves(const DocumentClip& clip) {
   });
 }
 
+template <class Words>
+bool HasAnyOf(const std::string& name, const Words& these) {
+  const std::vector<std::string> words = NameWords(name);
+  return std::find_first_of(words.begin(), words.end(), std::begin(these), std::end(these)) != words.end();
+}
+
 // Whether a name says that something else is done than strolling, standing or talking through a town.
 bool SaysMore(const std::string& name) {
   static constexpr std::string_view kOthers[] = {
@@ -51,8 +57,7 @@ bool SaysMore(const std::string& name) {
       "left",  "lie",      "lying",   "melee",    "pistol",    "ranged", "ride",    "riding", "rifle",
       "right", "shield",   "shoot",   "sit",      "sitting",   "sleep",  "sneak",   "spear",  "strafe",
       "swim",  "swimming", "sword",   "wave",     "waving",    "weapon", "zombie"};
-  const std::vector<std::string> words = NameWords(name);
-  return std::find_first_of(words.begin(), words.end(), std::begin(kOthers), std::end(kOthers)) != words.end();
+  return HasAnyOf(name, kOthers);
 }
 
 bool Contains(const std::string& text, std::string_view part) { return text.find(part) != std::string::npos; }
@@ -76,13 +81,10 @@ bool SaysOtherwise(const std::string& name, const std::string& word) {
   static constexpr std::string_view kBetween[] = {"up", "down", "to", "pose", "tpose", "apose"};
   const auto others = kOthers.find(word);
   if (others == kOthers.end()) return false;
-  const std::vector<std::string> words = NameWords(name);
-  const auto any = [&](const auto& these) {
-    return std::find_first_of(words.begin(), words.end(), std::begin(these), std::end(these)) != words.end();
-  };
-  if (any(kBetween)) return false;
+  if (HasAnyOf(name, kBetween)) return false;
   const auto& [letters, ideographs] = others->second;
-  return any(letters) || std::any_of(ideographs.begin(), ideographs.end(), [&](auto w) { return Contains(name, w); });
+  return HasAnyOf(name, letters) ||
+         std::any_of(ideographs.begin(), ideographs.end(), [&](auto w) { return Contains(name, w); });
 }
 
 // Of the names that say it the shortest is the plainest; file order breaks ties. Who walks may do so with a weapon
@@ -308,9 +310,7 @@ Error ChooseClips(const GltfDocument& document, const ReadAvatarOptions& options
 
 bool IsNoWalk(const std::string& name) {
   static constexpr std::string_view kOthers[] = {"run", "running", "jog", "jogging", "pose", "tpose", "apose"};
-  const std::vector<std::string> words = NameWords(name);
-  return SaysMore(name) || GuessClip({name}, "idle") >= 0 || GuessClip({name}, "talk") >= 0 ||
-         std::find_first_of(words.begin(), words.end(), std::begin(kOthers), std::end(kOthers)) != words.end();
+  return SaysMore(name) || HasAnyOf(name, kOthers) || GuessClip({name}, "idle") >= 0 || GuessClip({name}, "talk") >= 0;
 }
 
 }  // namespace flaneur

@@ -28,12 +28,13 @@ bool KeepsLegsStill(const Rig& rig, const Clip& clip) {
 }
 
 bool Sits(const Rig& rig, const Clip& clip) {
-  if (!BendsKnees(rig) || clip.keys < 1 || !KeepsLegsStill(rig, clip)) return false;
+  if (!BendsKnees(rig) || clip.keys < 1) return false;
   const Pose pose = PoseAt(rig, clip, 0);
-  return std::all_of(rig.legs.begin(), rig.legs.end(), [&](const RigLeg& leg) {
+  const bool lie = std::all_of(rig.legs.begin(), rig.legs.end(), [&](const RigLeg& leg) {
     const Vec3 thigh = At(pose.positions, leg.upper) - At(pose.positions, leg.lower);
     return thigh.y < kLies * Length(thigh);
   });
+  return lie && KeepsLegsStill(rig, clip);
 }
 
 void KeepSeated(const Rig& rig, const Clip& seated, Clip* clip) {

@@ -313,6 +313,7 @@ void Foresee(const ViewCamera& camera, const ViewMotion& motion, const Walkable&
     Tally(Forecasted(*c, i, Desired(*c, i), s.r_high_m, *state), 1, state);
   }
   MeasureExcess(camera.fov_rad, capacity, state);
+  if (s.discretion >= 1 && state->overfull_moments == 0 && state->overfull_turns == 0) return;  // nobody is in the way
   for (const size_t i : state->near) {
     if (c->activity[i] != Activity::kWorking && MemoryOf(*c, i, state).left_s <= 0.5f * kLeans_s)
       Consider(walkable, s, i, c, state);

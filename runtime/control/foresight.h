@@ -35,8 +35,8 @@ struct ForesightState {
     uint32_t in_view = 0;                             // a bit for every moment
     std::array<int8_t, kTurns> sector{-1, -1, -1};    // none where they are out of reach then
   };
-  std::vector<size_t> near;
-  struct Lean {  // how somebody walks, relative to their own way
+  std::vector<size_t> near;  // people who may come within r_high
+  struct Lean {              // how somebody walks, relative to their own way
     float turn_rad = 0, pace = 1;
 
     bool operator==(const Lean&) const = default;
