@@ -96,12 +96,10 @@ class Misplacement {
   bool IsSwapped(const std::string& name, const MapSystem& system) {
     const Point2 turned{middle_.y, middle_.x};
     if (!system.degrees) {
-      std::vector<Point2> given{middle_}, other{turned};
-      if (!system.has_area || TransformPoints(name, kLongitudeLatitude, &given) ||
-          TransformPoints(name, kLongitudeLatitude, &other))
-        return false;
+      Point2 given, other;
       why_ = "only so it is where " + name + " is used";
-      return !IsUsedAt(system, given[0]) && IsUsedAt(system, other[0], 0.25);
+      return system.has_area && !(FindRoughPlace(name, middle_, &given) && IsUsedAt(system, given)) &&
+             FindRoughPlace(name, turned, &other) && IsUsedAt(system, other, 0.25);
     }
     const double right = 90 / system.unit_deg;
     if (std::abs(turned.x) > 2 * right || std::abs(turned.y) > right) return false;

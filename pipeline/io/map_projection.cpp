@@ -23,12 +23,16 @@ struct Free {
 using Context = std::unique_ptr<PJ_CONTEXT, Free>;
 using Object = std::unique_ptr<PJ, Free>;
 
-// Quiet: what goes wrong is said by our own errors. No grids from the network.
-Context MakeContext() {
-  Context context(proj_context_create());
-  proj_log_level(context.get(), PJ_LOG_NONE);
-  proj_context_set_enable_network(context.get(), 0);
-  return context;
+// Quiet: what goes wrong is said by our own errors. No grids from the network. One for each thread, as each opens
+// PROJ's database anew.
+PJ_CONTEXT* ThreadsContext() {
+  thread_local const Context context = [] {
+    Context quiet(proj_context_create());
+    proj_log_level(quiet.get(), PJ_LOG_NONE);
+    proj_context_set_enable_network(quiet.get(), 0);
+    return quiet;
+  }();
+  return context.get();
 }
 
 // The unit's name where it is neither metre nor an angle.
@@ -127,6 +131,18 @@ Object WayToEarth(PJ_CONTEXT* context, const std::string& name, Point2 place) {
   return nullptr;
 }
 
+// To longitude and latitude on a system's own datum, which is some hundred metres off at most; `own` says in which unit
+// and from where. Nothing has to be looked for, as it has where the datum changes: that takes most of a second where
+// many ways are known.
+Object WayToOwnDegrees(PJ_CONTEXT* context, const std::string& name, MapSystem* own) {
+  const Object system = PlaneOf(context, MakeSystem(context, name));
+  const Object degrees(system ? proj_crs_get_geodetic_crs(context, system.get()) : nullptr);
+  if (!degrees) return nullptr;
+  FindDegrees(context, degrees.get(), own);
+  const Object way(proj_create_crs_to_crs_from_pj(context, system.get(), degrees.get(), nullptr, nullptr));
+  return Object(way ? proj_normalize_for_visualization(context, way.get()) : nullptr);
+}
+
 // Finding a way takes longer than to transform a town's points, so the last ones are kept.
 class Ways {
  public:
@@ -137,27 +153,33 @@ class Ways {
     for (const Way& way : ways_)
       if (way.system == system && way.place.x == place.x && way.place.y == place.y) return way.transform.get();
     if (ways_.size() == kMaxKeptWays) ways_.erase(ways_.begin());
-    ways_.push_back({system, place, WayToEarth(context_.get(), system, place)});
+    ways_.push_back({system, place, WayToEarth(context_, system, place)});
     return ways_.back().transform.get();
   }
 
-  // To some metres: enough to choose the way. False where there is none.
+  // The way at a point of the system, which becomes its place on earth. The way that its own datum's degrees give first
+  // is asked where it leads, and chosen there: whoever comes back from the place finds the same one.
+  PJ* FromPoint(const std::string& system, Point2* p) {
+    const Point2 point = *p;
+    if (!Roughly(system, p)) return nullptr;
+    const auto earth = [](Point2 q) { return std::isfinite(q.x) && std::isfinite(q.y) ? q : Point2{}; };
+    PJ* const first = ToEarth(system, *p = earth(*p));
+    if (!first) return nullptr;
+    const PJ_COORD reached = proj_trans(first, PJ_FWD, proj_coord(point.x, point.y, 0, HUGE_VAL));
+    return ToEarth(system, *p = earth({reached.xy.x, reached.xy.y}));
+  }
+
+  // False where there is none.
   bool Roughly(const std::string& system, Point2* p) {
-    if (system != kLongitudeLatitude) {
-      if (rough_system_ != system) {
-        rough_system_ = system;
-        const Object from = PlaneOf(context_.get(), MakeSystem(context_.get(), system));
-        const Object to = MakeSystem(context_.get(), kLongitudeLatitude);
-        const Object raw(from && to
-                             ? proj_create_crs_to_crs_from_pj(context_.get(), from.get(), to.get(), nullptr, nullptr)
-                             : nullptr);
-        rough_.reset(raw ? proj_normalize_for_visualization(context_.get(), raw.get()) : nullptr);
-      }
-      if (!rough_) return false;
-      const PJ_COORD out = proj_trans(rough_.get(), PJ_FWD, proj_coord(p->x, p->y, 0, HUGE_VAL));
-      *p = {out.xy.x, out.xy.y};
+    if (system == kLongitudeLatitude) return true;
+    if (rough_system_ != system) {
+      rough_system_ = system;
+      rough_degrees_ = {};
+      rough_ = WayToOwnDegrees(context_, system, &rough_degrees_);
     }
-    if (!std::isfinite(p->x) || !std::isfinite(p->y)) *p = {};
+    if (!rough_) return false;
+    const PJ_COORD out = proj_trans(rough_.get(), PJ_FWD, proj_coord(p->x, p->y, 0, HUGE_VAL));
+    *p = FromGreenwich(rough_degrees_, {out.xy.x, out.xy.y});
     return true;
   }
 
@@ -168,11 +190,17 @@ class Ways {
     Point2 place;
     Object transform;
   };
-  Context context_ = MakeContext();  // outlives the ways
+  PJ_CONTEXT* context_ = ThreadsContext();  // made first, so that it outlives the ways
   std::vector<Way> ways_;
   std::string rough_system_;
+  MapSystem rough_degrees_;
   Object rough_;
 };
+
+Ways& KnownWays() {
+  thread_local Ways ways;
+  return ways;
+}
 
 // The place that leads to `p`. PROJ's own inverse forgets the height that a change of datum gave, which costs up to
 // some millimetres; what is missing then is taken off once.
@@ -207,13 +235,18 @@ std::string LocalMapSystem(Point2 longitude_latitude) {
   return text;
 }
 
+bool FindRoughPlace(const std::string& system, Point2 at, Point2* longitude_latitude) {
+  *longitude_latitude = at;
+  return KnownWays().Roughly(system, longitude_latitude) && std::isfinite(longitude_latitude->x) &&
+         std::isfinite(longitude_latitude->y);
+}
+
 Error TransformPoints(const std::string& from, const std::string& to, std::vector<Point2>* points) {
-  thread_local Ways ways;
+  Ways& ways = KnownWays();
   if (from == to) return Ok();
   const Error none = Fail("no way from coordinate system '" + from + "' to '" + to + "'");
   Point2 place = Median(*points);
-  if (!ways.Roughly(from, &place)) return none;
-  PJ* const there = from == kLongitudeLatitude ? nullptr : ways.ToEarth(from, place);
+  PJ* const there = from == kLongitudeLatitude ? nullptr : ways.FromPoint(from, &place);
   PJ* const back = to == kLongitudeLatitude ? nullptr : ways.ToEarth(to, place);
   if ((!there && from != kLongitudeLatitude) || (!back && to != kLongitudeLatitude)) return none;
   for (Point2& p : *points) {
@@ -228,23 +261,22 @@ Error TransformPoints(const std::string& from, const std::string& to, std::vecto
 }
 
 Error FindMapSystem(const std::string& name, MapSystem* system) {
-  const Context context = MakeContext();
-  const Object object = MakeSystem(context.get(), name);
+  PJ_CONTEXT* const context = ThreadsContext();
+  const Object object = MakeSystem(context, name);
   if (!object) return Fail("coordinate system '" + name + "' is not known");
   *system = {};
-  Object plane = PlaneOf(context.get(), MakeSystem(context.get(), name));
-  if (plane && proj_get_type(plane.get()) == PJ_TYPE_BOUND_CRS)
-    plane.reset(proj_get_source_crs(context.get(), plane.get()));
+  Object plane = PlaneOf(context, Object(proj_clone(context, object.get())));
+  if (plane && proj_get_type(plane.get()) == PJ_TYPE_BOUND_CRS) plane.reset(proj_get_source_crs(context, plane.get()));
   const PJ_TYPE type = plane ? proj_get_type(plane.get()) : PJ_TYPE_UNKNOWN;
   if (type == PJ_TYPE_UNKNOWN || type == PJ_TYPE_VERTICAL_CRS || type == PJ_TYPE_GEOCENTRIC_CRS)
     return Fail("coordinate system '" + name + "' is none of a map");
   system->degrees = type == PJ_TYPE_GEOGRAPHIC_2D_CRS || type == PJ_TYPE_GEOGRAPHIC_3D_CRS;
-  if (system->degrees) FindDegrees(context.get(), plane.get(), system);
-  else system->other_unit = OtherUnit(context.get(), plane.get());
-  system->north_first = FirstAxisIsNorth(context.get(), plane.get());
+  if (system->degrees) FindDegrees(context, plane.get(), system);
+  else system->other_unit = OtherUnit(context, plane.get());
+  system->north_first = FirstAxisIsNorth(context, plane.get());
   const char* area = nullptr;
   double w = 0, s = 0, e = 0, n = 0;
-  if (proj_get_area_of_use(context.get(), object.get(), &w, &s, &e, &n, &area) && w > -1000) {
+  if (proj_get_area_of_use(context, object.get(), &w, &s, &e, &n, &area) && w > -1000) {
     system->has_area = true;
     system->west = w, system->south = s, system->east = e, system->north = n;
   }
@@ -257,12 +289,12 @@ Point2 FromGreenwich(const MapSystem& system, Point2 p) {
 }
 
 std::string MetricSystemAt(const std::string& system, Point2 place) {
-  const Context context = MakeContext();
-  const Object plane = PlaneOf(context.get(), MakeSystem(context.get(), system));
-  const Object base(plane ? proj_crs_get_geodetic_crs(context.get(), plane.get()) : nullptr);
+  PJ_CONTEXT* const context = ThreadsContext();
+  const Object plane = PlaneOf(context, MakeSystem(context, system));
+  const Object base(plane ? proj_crs_get_geodetic_crs(context, plane.get()) : nullptr);
   const char* const datum = base ? proj_get_name(base.get()) : nullptr;
   for (const std::string& name : {std::string(datum ? datum : "WGS 84"), std::string("WGS 84")}) {
-    const std::string code = UtmZoneAt(context.get(), name, place);
+    const std::string code = UtmZoneAt(context, name, place);
     if (!code.empty()) return code;
   }
   return LocalMapSystem(place);
@@ -270,9 +302,9 @@ std::string MetricSystemAt(const std::string& system, Point2 place) {
 
 std::vector<std::string> SystemsThatPut(Point2 at, Point2 place, double within_m) {
   constexpr double kDegree_m = 111'000, kRadian = 3.14159265358979323846 / 180;
-  const Context context = MakeContext();
+  PJ_CONTEXT* const context = ThreadsContext();
   std::vector<std::pair<double, std::string>> found;
-  for (const auto& [code, name] : ProjectedSystemsAt(context.get(), place)) {
+  for (const auto& [code, name] : ProjectedSystemsAt(context, place)) {
     if (name.find("(N-E)") != std::string::npos) continue;  // another one with its axes turned
     std::vector<Point2> there{at};
     if (TransformPoints(code, kLongitudeLatitude, &there)) continue;

@@ -24,6 +24,10 @@ std::string LocalMapSystem(Point2 longitude_latitude);
 // middle, and there and back is where they were, to 0.01 mm. Errors: a name that PROJ does not know.
 Error TransformPoints(const std::string& from, const std::string& to, std::vector<Point2>* points);
 
+// On the system's own datum, up to some hundred metres off: at once, where to transform a place looks for the best way
+// there first. False where the system is not known or the point has no image.
+bool FindRoughPlace(const std::string& system, Point2 at, Point2* longitude_latitude);
+
 struct MapSystem {
   bool degrees = false;      // or grads: longitude and latitude, of which
   double unit_deg = 1;       // one is so many degrees,

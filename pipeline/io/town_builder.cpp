@@ -257,9 +257,8 @@ Error TownBuilder::MapToMetres(const CityCoordinates& coordinates, std::string* 
     for (const Point3& p : {t.a, t.b, t.c}) points.push_back({p.x, p.y});
   Point2 middle = Median(points);
   const auto lies_there = [&](Point2 p) {
-    std::vector<Point2> place{p};
-    return !TransformPoints(coordinates.system, kLongitudeLatitude, &place) &&
-           IsUsedAt(system, place[0], kBesideArea_deg);
+    Point2 place;
+    return FindRoughPlace(coordinates.system, p, &place) && IsUsedAt(system, place, kBesideArea_deg);
   };
   const bool given = lies_there(middle), turned = lies_there({middle.y, middle.x});
   const bool said = coordinates.axes_as_named && system.north_first;

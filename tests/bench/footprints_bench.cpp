@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <cstring>
 #include <fstream>
+#include <thread>
 
 #include "runtime/base/clock.h"
 #include "tests/unit/pipeline/footprint/figures.h"
@@ -102,6 +103,26 @@ Error PrintSpeed(const char* name, const Scene& town, int repeats) {
   return Ok();
 }
 
+// From the file to its obstacles, each by a thread of its own: nothing is kept from the one before.
+Error PrintFiles(const std::filesystem::path& folder) {
+  for (const std::filesystem::path& file : CityGmlIn(folder)) {
+    Scene town;
+    Footprints footprints;
+    FootprintStats stats;
+    Error error;
+    const double cpu_s = Cpu_s();
+    std::thread([&] {
+      error = ReadScene(file, &town);
+      if (!error) error = ExtractFootprints(town, {}, &footprints, &stats);
+    }).join();
+    if (error) return error;
+    const double used_s = Cpu_s() - cpu_s;
+    std::printf("%-31s %6d triangles, read and extracted %5.2f CPU s; a million %6.1f CPU s\n",
+                file.filename().string().c_str(), stats.triangles, used_s, 1e6 * used_s / stats.triangles);
+  }
+  return Ok();
+}
+
 // All towns of a folder as one, some distance apart, several times.
 Scene Large(const std::vector<Scene>& towns, int copies) {
   Scene all;
@@ -184,6 +205,8 @@ Error Run(const std::filesystem::path& data, bool worst, const std::string& only
   if (only.empty() || only == "cover")
     if (Error e = PrintCover(lod2)) return e;
   const auto wanted = [&](const char* name) { return only.empty() || only == "speed" || only == name; };
+  if (wanted("files"))
+    if (Error e = PrintFiles(data / "towns" / "nrw-lod2")) return e;
   if (wanted("LoD2"))
     if (Error e = PrintSpeed("LoD2", Large(lod2, 4), 5)) return e;
   if (wanted("LoD3"))

@@ -26,12 +26,16 @@ inline std::filesystem::path SharedData() {
 }
 
 // The town of all .gml files in a folder, in the first one's coordinates.
-inline Error ReadFolder(const std::filesystem::path& folder, std::vector<Scene>* scenes) {
+inline std::vector<std::filesystem::path> CityGmlIn(const std::filesystem::path& folder) {
   std::vector<std::filesystem::path> files;
   for (const auto& entry : std::filesystem::directory_iterator(folder))
     if (entry.path().extension() == ".gml") files.push_back(entry.path());
   std::sort(files.begin(), files.end());
-  for (const auto& file : files)
+  return files;
+}
+
+inline Error ReadFolder(const std::filesystem::path& folder, std::vector<Scene>* scenes) {
+  for (const auto& file : CityGmlIn(folder))
     if (Error e = ReadScene(file, &scenes->emplace_back())) return e;
   return Ok();
 }
