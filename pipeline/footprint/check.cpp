@@ -105,6 +105,9 @@ Error PrepareTown(const Scene& town, const Footprints& footprints, const CheckOp
     FindLevelFeet(BlocksOf(Adjoining(objects)), options.threads, &objects);
     FindFloors(extraction, kMinFloor, &objects);
   }
+  GroundRasterOptions below_bridges;
+  below_bridges.with_decks = false;
+  if (Error error = RasterizeGround(prepared->objects, below_bridges, &prepared->below_bridges)) return error;
   return RasterizeGround(prepared->objects, {}, &prepared->ground);
 }
 

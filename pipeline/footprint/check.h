@@ -67,6 +67,7 @@ struct PreparedTown {
   Footprints own;  // what the extraction makes of it, with the obstacles' clearance and band
   std::vector<std::string> open_shells;
   GroundRaster ground;
+  GroundRaster below_bridges;  // the ground without their decks, over which the extraction cuts walls
 };
 // `footprints` is for its clearance and band. Errors: as for ExtractFootprints.
 Error PrepareTown(const Scene& town, const Footprints& footprints, const CheckOptions& options, PreparedTown* prepared);

@@ -155,7 +155,7 @@ class TownCheck {
 
   void FindWalls() {
     std::vector<LocalGround> terrain;
-    if (!objects_.ground.empty()) terrain.emplace_back(town_.ground);
+    if (!objects_.ground.empty()) terrain.emplace_back(town_.below_bridges);
     for (const TownObject& object : objects_.obstacles) {
       if (missing_.contains(object.name) || object.is_bridge) continue;
       const BoundingBox box{{object.min_m.x, object.min_m.y}, {object.max_m.x, object.max_m.y}};

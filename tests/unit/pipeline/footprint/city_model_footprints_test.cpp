@@ -100,6 +100,18 @@ TEST_F(CityModelFootprints, TheCheckFindsInACleanTownOnlyWhatIsThere) {
   EXPECT_EQ(count, (std::map<int, int>{{401, 3}, {501, 3}, {502, 1}, {503, 1}}));
 }
 
+// Quays, bridges and water; the ground beneath them is not given.
+TEST_F(CityModelFootprints, TheCheckFindsNothingWrongWithOwnObstaclesOfDelft) {
+  Scene town;
+  ASSERT_EQ(ReadScene(figures::SharedData() / "towns/delft-cityjson/delft.json", &town).message, "");
+  Footprints footprints;
+  ASSERT_EQ(ExtractFootprints(town, {}, &footprints).message, "");
+  std::vector<Finding> findings;
+  ASSERT_EQ(Check(footprints, &town, {}, &findings).message, "");
+  EXPECT_FALSE(findings.empty()) << "gaps too narrow for a person";
+  for (const Finding& f : findings) EXPECT_GE(f.code, 403) << f.message;
+}
+
 // Listed by looking at the model: pillars stand, the ways between and behind them are open.
 TEST_F(CityModelFootprints, TheArcadeOfIngolstadt4018115IsOpen) {
   const Footprints f = Extracted("ingolstadt-lod3/4018115.gml");
