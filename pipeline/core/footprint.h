@@ -36,6 +36,7 @@ struct Obstacle {
 
 struct Footprints {
   double clearance_m = 0.05;
+  double tolerance_m = 0;                  // outlines were simplified outwards by at most this; 0: not known
   std::array<double, 2> band_m{0.1, 2.0};  // height over the local ground that blocks
   Point2 origin_m;                         // add to a coordinate to get the source's own
   std::string reference_system;            // of the source's coordinates: "EPSG:25832"; empty: not known

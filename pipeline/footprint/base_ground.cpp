@@ -117,6 +117,22 @@ GroundRaster OfFeet(const TownObject& object, const Neighbours& neighbours) {
 
 }  // namespace
 
+std::vector<Neighbours> NeighboursOf(const std::vector<TownObject>& objects,
+                                     const std::vector<std::vector<size_t>>& adjoining) {
+  std::vector<Neighbours> neighbours(objects.size());
+  for (size_t i = 0; i < objects.size(); ++i)
+    for (const size_t j : adjoining[i]) neighbours[i].push_back(&objects[j]);
+  return neighbours;
+}
+
+std::vector<Neighbours> TellingOfGround(const std::vector<TownObject>& objects,
+                                        const std::vector<std::vector<size_t>>& adjoining) {
+  std::vector<Neighbours> neighbours = NeighboursOf(objects, adjoining);
+  for (size_t i = 0; i < objects.size(); ++i)
+    if (!objects[i].foundation.empty()) neighbours[i].clear();
+  return neighbours;
+}
+
 GroundRaster BaseOf(const TownObject& object, const Neighbours& neighbours) {
   std::vector<Triangle3> floor;
   if (object.foundation.empty() && !object.has_no_floor) floor = FloorOf(object.triangles, kMinFloor);

@@ -10,6 +10,15 @@ namespace flaneur {
 // Objects beside an object, which tell of its ground too.
 using Neighbours = std::vector<const TownObject*>;
 
+// For each object those that adjoin it, by their numbers.
+std::vector<Neighbours> NeighboursOf(const std::vector<TownObject>& objects,
+                                     const std::vector<std::vector<size_t>>& adjoining);
+
+// Those of them that tell something of the ground under an object of a town without terrain: none where the object
+// knows that itself.
+std::vector<Neighbours> TellingOfGround(const std::vector<TownObject>& objects,
+                                        const std::vector<std::vector<size_t>>& adjoining);
+
 // Where the object's foundation lies, else its floor, else the feet of its walls; cells of which nothing is known have
 // no kind. Walls that stand on roofs or hang from ceilings, the object's own or its neighbours', and parts that hang
 // over lower ones and are narrower than 6 m (arcades, passages, jetties) do not count as feet.

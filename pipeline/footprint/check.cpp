@@ -102,7 +102,8 @@ Error PrepareTown(const Scene& town, const Footprints& footprints, const CheckOp
   prepared->objects = SortTown(town, options.scale);
   if (prepared->objects.ground.empty()) {  // what stands on no ground stands where the extraction says
     std::vector<TownObject>& objects = prepared->objects.obstacles;
-    FindLevelFeet(BlocksOf(Adjoining(objects)), options.threads, &objects);
+    prepared->adjoining = Adjoining(objects);
+    FindLevelFeet(BlocksOf(prepared->adjoining), options.threads, &objects);
     FindFloors(extraction, kMinFloor, &objects);
   }
   GroundRasterOptions below_bridges;

@@ -64,6 +64,7 @@ Error Validate(const CheckOptions& options);
 struct PreparedTown {
   const Scene* scene = nullptr;  // must outlive it
   TownObjects objects;
+  std::vector<std::vector<size_t>> adjoining;  // of a town without terrain: which obstacles adjoin each
   Footprints own;  // what the extraction makes of it, with the obstacles' clearance and band
   std::vector<std::string> open_shells;
   GroundRaster ground;

@@ -155,15 +155,17 @@ class TownCheck {
 
   void FindWalls() {
     std::vector<LocalGround> terrain;
+    std::vector<Neighbours> neighbours;
     if (!objects_.ground.empty()) terrain.emplace_back(town_.below_bridges);
-    for (const TownObject& object : objects_.obstacles) {
+    else neighbours = TellingOfGround(objects_.obstacles, town_.adjoining);
+    for (size_t i = 0; i < objects_.obstacles.size(); ++i) {
+      const TownObject& object = objects_.obstacles[i];
       if (missing_.contains(object.name) || object.is_bridge) continue;
       const BoundingBox box{{object.min_m.x, object.min_m.y}, {object.max_m.x, object.max_m.y}};
       if (IsBroken(object.name, box)) continue;
       if (object.kind == ObstacleKind::kTree || object.kind == ObstacleKind::kLamp) FindTrunk(object, box);
       else
-        CheckWalls(object, box,
-                   terrain.empty() ? WallsInBand(object, GroundsUnder(object)) : WallsInBand(object, terrain));
+        CheckWalls(object, box, WallsInBand(object, terrain.empty() ? GroundsUnder(object, neighbours[i]) : terrain));
     }
   }
 
@@ -234,18 +236,22 @@ class TownCheck {
     }
   }
 
+  // Outlines that were simplified may lie so far out.
+  double Outwards_m() const { return std::max(state_.options.tolerance_m, state_.footprints.tolerance_m); }
+
   // 303 and 307, each once for an obstacle, at its largest piece.
   void FindOverCover() {
     PassageTest::Options options;
     options.headroom_m = state_.options.headroom_m;
     options.person_radius_m = state_.options.person_radius_m;
-    options.slack_m = state_.options.tolerance_m + kOutlineRounding_m;
+    const double outwards_m = Outwards_m();
+    options.slack_m = outwards_m + kOutlineRounding_m;
     options.ends_m = state_.clearance_m + 2 * state_.options.tolerance_m;
     const PassageTest passages(objects_, town_.ground, options);
     for (const CheckedObstacle& entry : state_.obstacles) {
       if (!entry.sound || entry.rings.empty() || entry.duplicate || strange_.contains(&entry)) continue;
       const Rings truth = TruthNear({entry.min, entry.max});
-      const Rings beyond = Difference(entry.rings, Offset(truth, state_.options.tolerance_m + kOutlineRounding_m));
+      const Rings beyond = Difference(entry.rings, Offset(truth, outwards_m + kOutlineRounding_m));
       double free = 0, blocked = 0, largest_free = 0, largest_blocked = 0;
       Point2 free_at, blocked_at;
       for (const Polygon& piece : ToPolygons(beyond)) {
@@ -275,7 +281,7 @@ class TownCheck {
     const double share = state_.options.over_cover_share;
     const Rings excess = Difference(entry.rings, truth);
     const double area = Area(excess), right = Area(entry.rings) - area;
-    if (area <= share * right || area <= state_.options.tolerance_m / 2 * Length(Outline(entry.rings))) return;
+    if (area <= share * right || area <= Outwards_m() / 2 * Length(Outline(entry.rings))) return;
     const std::string& name = entry.obstacle->name;
     state_.Add(303, name, excess[0][0], area / right, share,
                "'" + name + "' takes " + SquareMetres(area) + " all round");

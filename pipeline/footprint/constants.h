@@ -112,7 +112,9 @@ inline constexpr double kMinPiece_m2 = 0.01;     // what clipping leaves over th
 inline constexpr double kMinGap_m2 = 0.01;       // of a block that no single house accounts for
 inline constexpr double kSliver_m = 0.022;       // strips narrower than this that neighbours leave over are dropped
 inline constexpr double kSlit_m = 0.4;           // narrower yards are none
-inline constexpr double kThinWall_m = 0.001;     // half the thickness of a wall without any, before the clearance
+inline constexpr double kSamePoint_m = 0.0011;   // points of a ring this near are one: nearer than 1 mm is an error
+// Half the thickness of a wall without any, at least: thinner ones are slivers, but for those beside something solid.
+inline constexpr double kThinWall_m = 0.0125, kThinSeam_m = 0.001;
 inline constexpr double kMinStrip_m2 = 1e-4;     // of those that go to a neighbour instead
 inline constexpr double kMinOverlap_m2 = 0.005;  // less is none, half of what the check finds
 inline constexpr double kAgainst_m = 0.0005;     // strips nearer than this to a neighbour lie against it

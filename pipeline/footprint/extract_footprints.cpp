@@ -78,25 +78,6 @@ bool IsRound(const TownObject& object) {
   return object.kind == ObstacleKind::kTree || object.kind == ObstacleKind::kLamp;
 }
 
-// The objects themselves, of indices.
-std::vector<Neighbours> Chosen(const std::vector<TownObject>& objects,
-                               const std::vector<std::vector<size_t>>& indices) {
-  std::vector<Neighbours> chosen(indices.size());
-  for (size_t i = 0; i < indices.size(); ++i)
-    for (const size_t j : indices[i]) chosen[i].push_back(&objects[j]);
-  return chosen;
-}
-
-// Those that tell something of the ground under an object: none where it knows that itself.
-std::vector<Neighbours> NeighboursOf(const Site& site, const std::vector<TownObject>& objects,
-                                     const std::vector<Neighbours>& beside) {
-  std::vector<Neighbours> neighbours(objects.size());
-  if (site.ground) return neighbours;
-  for (size_t i = 0; i < objects.size(); ++i)
-    if (objects[i].foundation.empty()) neighbours[i] = beside[i];
-  return neighbours;
-}
-
 std::vector<Shape> ShapesOf(const Site& site, const std::vector<TownObject>& objects,
                             const std::vector<Neighbours>& neighbours) {
   std::vector<Shape> shapes(objects.size());
@@ -132,7 +113,12 @@ Rings Enlarged(const Site& site, const Shape& shape) {
   Rings rings = WithoutSlits(clearance > 0 ? Offset(shape.solid, clearance) : shape.solid);
   const std::vector<Segment> thin =
       shape.loose.empty() ? shape.loose : Outside(shape.loose, Offset(shape.solid, kOnOutline_m));
-  if (!thin.empty()) rings = WithoutSlits(Union(rings, OffsetSegments(thin, std::max(clearance, kThinWall_m))));
+  if (!thin.empty()) {
+    Rings walls = OffsetSegments(thin, std::max(clearance, kThinSeam_m));
+    if (clearance < kThinWall_m)
+      walls = Union(walls, OffsetSegments(Outside(thin, Offset(shape.solid, 2 * kThinWall_m)), kThinWall_m));
+    rings = WithoutSlits(Union(rings, walls));
+  }
   return tolerance > 0 ? Simplify(rings, tolerance) : rings;
 }
 
@@ -141,8 +127,8 @@ std::vector<Rings> Outlines(const Site& site, const std::vector<TownObject>& obj
                             const std::vector<Shape>& shapes) {
   std::vector<Rings> outlines(shapes.size());
   ForEach(shapes.size(), site.options.threads, [&](size_t i) { outlines[i] = Enlarged(site, shapes[i]); });
-  // Without a clearance thin walls are as thin as slivers.
-  const double width_m = site.options.clearance_m > kSliver_m ? kSliver_m : kThinWall_m;
+  // Without a clearance what lies beside a house by a hair is as thin as slivers.
+  const double width_m = site.options.clearance_m > kSliver_m ? kSliver_m : kThinSeam_m;
   SeparateObstacles(objects, shapes, width_m, site.options.threads, &outlines);
   return outlines;
 }
@@ -206,6 +192,16 @@ class NameGiver {
   std::set<std::string> used_;
 };
 
+// Of neighbours in a ring that are no farther apart than this one stays.
+Ring WithoutNearPoints(const Ring& ring, double near_m) {
+  const auto near = [&](Point2 a, Point2 b) { return std::hypot(a.x - b.x, a.y - b.y) <= near_m; };
+  Ring kept;
+  for (const Point2& p : ring)
+    if (kept.empty() || !near(kept.back(), p)) kept.push_back(p);
+  while (kept.size() > 3 && near(kept.back(), kept.front())) kept.pop_back();
+  return kept.size() < 3 ? ring : kept;
+}
+
 void AddPolygons(const Site& site, const TownObject& object, const Shape& shape, const Rings& rings, NameGiver* names,
                  std::vector<Obstacle>* obstacles) {
   std::vector<Polygon> polygons = ToPolygons(rings);
@@ -217,9 +213,9 @@ void AddPolygons(const Site& site, const TownObject& object, const Shape& shape,
     obstacle.name = names->Unique(object.name);
     obstacle.ground_z_m = shape.ground_z_m;
     obstacle.open_shell = shape.open_shell;
-    obstacle.outer = polygon.outer;
+    obstacle.outer = WithoutNearPoints(polygon.outer, kSamePoint_m);
     for (const Ring& hole : polygon.holes)
-      if (-SignedArea(hole) >= kMinPiece_m2) obstacle.holes.push_back(hole);
+      if (-SignedArea(hole) >= kMinPiece_m2) obstacle.holes.push_back(WithoutNearPoints(hole, kSamePoint_m));
     obstacles->push_back(std::move(obstacle));
   }
 }
@@ -280,8 +276,9 @@ Error ExtractFootprints(const Scene& scene, const FootprintOptions& options, Foo
   }
   const Site site{options, ground ? &*ground : nullptr};
 
-  const std::vector<Neighbours> beside = Chosen(objects, adjoining);
-  const std::vector<Neighbours> neighbours = NeighboursOf(site, objects, beside);
+  const std::vector<Neighbours> beside = NeighboursOf(objects, adjoining);
+  const std::vector<Neighbours> neighbours =
+      site.ground ? std::vector<Neighbours>(objects.size()) : TellingOfGround(objects, adjoining);
   std::vector<Shape> shapes = ShapesOf(site, objects, neighbours);
   const bool has_lost = PutBackLost(site, blocks, neighbours, &town.obstacles, &shapes);
   CloseShells(site, objects, blocks, beside, neighbours, has_lost, &shapes);
@@ -293,6 +290,7 @@ Error ExtractFootprints(const Scene& scene, const FootprintOptions& options, Foo
 
   *footprints = {};
   footprints->clearance_m = options.clearance_m;
+  footprints->tolerance_m = options.tolerance_m;
   footprints->band_m = options.band_m;
   footprints->origin_m = {scene.origin_m.x * options.scale, scene.origin_m.y * options.scale};
   footprints->reference_system = scene.reference_system;

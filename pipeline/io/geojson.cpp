@@ -56,8 +56,9 @@ std::string FeatureText(const Obstacle& o, int decimals) {
 std::string CollectionText(const std::string& units, const std::string& members, const std::string& place,
                            const Footprints& footprints, int decimals) {
   std::string out = R"({"type":"FeatureCollection",)" + members + R"("flaneur":{"version":1,"units":")" + units +
-                    R"(","clearance_m":)" + Number(footprints.clearance_m) + R"(,"band_m":[)" +
-                    Number(footprints.band_m[0]) + "," + Number(footprints.band_m[1]) + "]" + place +
+                    R"(","clearance_m":)" + Number(footprints.clearance_m) +
+                    (footprints.tolerance_m > 0 ? R"(,"tolerance_m":)" + Number(footprints.tolerance_m) : "") +
+                    R"(,"band_m":[)" + Number(footprints.band_m[0]) + "," + Number(footprints.band_m[1]) + "]" + place +
                     "},\n\"features\":[\n";
   for (size_t i = 0; i < footprints.obstacles.size(); ++i)
     out += FeatureText(footprints.obstacles[i], decimals) + (i + 1 < footprints.obstacles.size() ? ",\n" : "\n");

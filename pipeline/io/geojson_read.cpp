@@ -141,6 +141,8 @@ class Reader {
     if (!ours.is_object()) return bad("must be an object");
     if (ours.contains("clearance_m") && !(ReadNumber(ours["clearance_m"], &f.clearance_m) && f.clearance_m >= 0))
       return bad("'clearance_m' must be a number from 0");
+    if (ours.contains("tolerance_m") && !(ReadNumber(ours["tolerance_m"], &f.tolerance_m) && f.tolerance_m >= 0))
+      return bad("'tolerance_m' must be a number from 0");
     if (ours.contains("band_m") && !(ReadPair(ours["band_m"], &f.band_m[0], &f.band_m[1]) && f.band_m[0] < f.band_m[1]))
       return bad("'band_m' must be two ascending numbers");
     if (ours.contains("origin_m") && !ReadPair(ours["origin_m"], &f.origin_m.x, &f.origin_m.y))

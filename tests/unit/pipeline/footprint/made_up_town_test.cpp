@@ -3,9 +3,6 @@
 
 #include <gtest/gtest.h>
 
-#include <random>
-
-#include "pipeline/footprint/check.h"
 #include "tests/unit/pipeline/footprint/figures.h"
 #include "tests/unit/pipeline/footprint/test_town.h"
 
@@ -218,42 +215,6 @@ TEST(Bridges, WithoutTerrainASolidOneIsNoBlock) {
   EXPECT_FALSE(Blocked(f, {30, 13}));
   EXPECT_FALSE(Blocked(f, {10, 13}));
   EXPECT_TRUE(Blocked(f, {4, 4}));
-}
-
-// A canal between two quays, with houses on them and bridges over it; beneath quays and bridges no ground is given.
-TestTown Canal(unsigned seed) {
-  std::mt19937 random(seed);
-  const auto any = [&](float from, float to) {
-    return from + (to - from) * static_cast<float>(random()) / 4294967296.0f;
-  };
-  const float water = any(-3, -0.3f), quay = any(0.2f, 1), parapet = any(-0.1f, 0.9f), length = 60;
-  TestTown town;
-  town.Node("west", NodeKind::kGround).Quad({0, 0, 0}, {18, 0, 0}, {18, length, 0}, {0, length, 0});
-  town.Node("east", NodeKind::kGround).Quad({32, 0, 0}, {50, 0, 0}, {50, length, 0}, {32, length, 0});
-  town.Node("canal", NodeKind::kGround)
-      .Quad({18 + quay, 0, water}, {32 - quay, 0, water}, {32 - quay, length, water}, {18 + quay, length, water});
-  for (const float x : {18.0f, 32 - quay})
-    town.Node("quay", NodeKind::kOther).Box({x, 0, water - 0.5f}, {x + quay, length, parapet});
-  for (int i = 0; i < 3; ++i) {
-    const float y = 8 + 16 * static_cast<float>(i), foot = any(water - 1, 0), deck = any(-0.3f, 1.5f);
-    const float west = any(16, 19), east = any(31, 34);
-    town.Node("bridge", NodeKind::kOther).Box({west, y, std::min(foot, deck - 0.2f)}, {east, y + any(2, 6), deck});
-    if (i > 0) town.Box({18, y - any(1, 4), water - 1}, {18 + any(0.2f, 4), y + 1, water + any(-0.2f, 0.4f)});  // foot
-    town.scene.nodes.back().is_bridge = true;
-    town.Node("house", NodeKind::kBuilding).Box({any(8, 12), y - 6, -0.5f}, {any(13, 18), y - 1, 7});
-  }
-  return town;
-}
-
-TEST(Bridges, OwnOutputIsRightBesideThem) {
-  for (unsigned seed = 181; seed <= 220; ++seed) {
-    const TestTown town = Canal(seed);
-    const Footprints footprints = Extract(town);
-    std::vector<Finding> findings;
-    ASSERT_EQ(Check(footprints, &town.scene, {}, &findings).message, "");
-    for (const Finding& f : findings)
-      EXPECT_FALSE((f.code >= 301 && f.code <= 305) || f.code == 401 || f.code == 402) << seed << ": " << f.message;
-  }
 }
 
 }  // namespace
