@@ -15,6 +15,7 @@ struct CityFeature {
   GroundKind ground;
   bool is_part;
   bool is_bridge = false;
+  SurfaceKind surface = SurfaceKind::kOther;  // of its surfaces that do not say what they are
 };
 
 // Whether a feature's function, by the AdV's code list, is that of a bridge: 53001_1800 and its kinds.

@@ -356,7 +356,7 @@ class Reader {
       rings_.erase(rings_.begin() + static_cast<long>(i));
       if (keep_rings_) ring_ids_.erase(ring_ids_.begin() + static_cast<long>(i));
     }
-    const SurfaceKind kind = e.surface ? e.surface->surface : SurfaceKind::kOther;
+    const SurfaceKind kind = e.surface ? e.surface->surface : SurfaceKind::kNotSaid;
     polygons_.push_back({e.object, e.feature, e.lod, kind, e.surface && e.surface->is_foundation, std::move(rings_),
                          std::move(ring_ids_)});
     rings_.clear();
@@ -490,7 +490,8 @@ class Reader {
         if (o.feature.is_bridge) builder->MarkBridge(node[object]);
       }
       const bool foundation = p.is_foundation && o.feature.kind == NodeKind::kBuilding;
-      builder->AddPolygon(foundation ? builder->FoundationOf(node[object]) : node[object], p.surface, p.rings,
+      const SurfaceKind surface = p.surface == SurfaceKind::kNotSaid ? o.feature.surface : p.surface;
+      builder->AddPolygon(foundation ? builder->FoundationOf(node[object]) : node[object], surface, p.rings,
                           LookOf(p, materials));
     }
     for (size_t i = 0; i < objects_.size(); ++i)  // for the builder to tell that it is left out

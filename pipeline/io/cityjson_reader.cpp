@@ -171,7 +171,7 @@ class Reader {
       if (root_feature->is_bridge || HasBridgeFunction(object)) builder_.MarkBridge(nodes[root_id]);
       const bool has_finer_parts = root_id == id && LevelOf(object) < FinestPart(objects, object);
       if (has_finer_parts) continue;
-      if (Error e = ReadGeometry(object, nodes[root_id], root_feature->kind)) return e;
+      if (Error e = ReadGeometry(object, nodes[root_id], *root_feature)) return e;
     }
     where_ = outer;
     return Ok();
@@ -235,22 +235,23 @@ class Reader {
     return finest;
   }
 
-  Error ReadGeometry(const Json& object, int node, NodeKind kind) {
+  Error ReadGeometry(const Json& object, int node, const CityFeature& feature) {
     const auto geometries = object.find("geometry");
     if (geometries == object.end() || !geometries->is_array()) return Ok();
     const double finest = LevelOf(object);
+    node_ = node, feature_ = feature;
     for (const Json& geometry : *geometries) {
       if (!geometry.is_object()) return Bad("a geometry must be an object");
       const bool is_instance = geometry.value("type", Json()) == "GeometryInstance";
-      const bool is_outline = finest == 0 && kind != NodeKind::kGround;  // of what lies on the ground it says where
+      const bool is_outline =
+          finest == 0 && feature.kind != NodeKind::kGround;  // of what lies on the ground it says where
       if (!is_instance && (is_outline || LevelOfGeometry(geometry) != finest)) continue;
-      if (Error e = is_instance ? ReadInstance(geometry, node, kind) : ReadShape(geometry, vertices_, node, kind))
-        return e;
+      if (Error e = is_instance ? ReadInstance(geometry) : ReadShape(geometry, vertices_)) return e;
     }
     return Ok();
   }
 
-  Error ReadInstance(const Json& instance, int node, NodeKind kind) {
+  Error ReadInstance(const Json& instance) {
     const Json which = instance.value("template", Json()), where = instance.value("boundaries", Json());
     const Json matrix = instance.value("transformationMatrix", Json());
     if (!which.is_number_unsigned() || which.get<size_t>() >= templates_.size())
@@ -266,12 +267,12 @@ class Reader {
     }
     place.at = vertices_[where[0].get<size_t>()];
     place_ = place;
-    const Error error = ReadShape(templates_[which.get<size_t>()], template_vertices_, node, kind);
+    const Error error = ReadShape(templates_[which.get<size_t>()], template_vertices_);
     place_.reset();
     return error;
   }
 
-  Error ReadShape(const Json& geometry, const std::vector<Point3>& points, int node, NodeKind kind) {
+  Error ReadShape(const Json& geometry, const std::vector<Point3>& points) {
     if (!geometry.is_object()) return Bad("a geometry must be an object");
     const int depth = DepthOf(geometry.value("type", ""));
     if (depth < 0) return Ok();  // points and lines block nobody
@@ -282,7 +283,7 @@ class Reader {
     const bool has = semantics != geometry.end() && semantics->is_object() && semantics->contains("values");
     const auto surfaces = has ? semantics->find("surfaces") : geometry.end();
     surfaces_ = has && surfaces != semantics->end() ? &*surfaces : nullptr;
-    points_ = &points, node_ = node, kind_ = kind;
+    points_ = &points;
     return ReadNested(*boundaries, has ? (*semantics)["values"] : none, depth);
   }
 
@@ -327,9 +328,9 @@ class Reader {
       }
       if (points.size() >= 3 || rings.empty()) rings.push_back(std::move(points));
     }
-    const bool foundation = meaning && meaning->is_foundation && kind_ == NodeKind::kBuilding;
+    const bool foundation = meaning && meaning->is_foundation && feature_.kind == NodeKind::kBuilding;
     builder_.AddPolygon(foundation ? builder_.FoundationOf(node_) : node_,
-                        meaning ? meaning->surface : SurfaceKind::kOther, rings);
+                        meaning ? meaning->surface : feature_.surface, rings);
     return Ok();
   }
 
@@ -346,7 +347,7 @@ class Reader {
   std::optional<Place> place_;  // of what is read, where it is a template
   TownPoints left_{0};
   int node_ = 0;
-  NodeKind kind_ = NodeKind::kBuilding;
+  CityFeature feature_{};
   TownBuilder builder_;
 };
 

@@ -46,10 +46,16 @@ struct SurfaceLook {
   const char* name;
   Vec4 color;
 };
-constexpr std::array<SurfaceLook, 4> kLooks{{{"other", {0.55f, 0.53f, 0.50f, 1}},
+constexpr std::array<SurfaceLook, 8> kLooks{{{"other", {0.55f, 0.53f, 0.50f, 1}},
                                              {"wall", {0.72f, 0.66f, 0.55f, 1}},
                                              {"roof", {0.36f, 0.13f, 0.08f, 1}},
-                                             {"ground", {0.30f, 0.27f, 0.22f, 1}}}};
+                                             {"ground", {0.30f, 0.27f, 0.22f, 1}},
+                                             {"grass", {0.13f, 0.15f, 0.07f, 1}},
+                                             {"paving", {0.25f, 0.24f, 0.22f, 1}},
+                                             {"plants", {0.10f, 0.15f, 0.05f, 1}},
+                                             {"water", {0.08f, 0.13f, 0.15f, 1}}}};
+static_assert(kLooks.size() == static_cast<size_t>(SurfaceKind::kNotSaid));
+constexpr int kUntold = -1;  // a triangle's material
 
 std::vector<Material> Looks() {
   std::vector<Material> materials;
@@ -146,7 +152,8 @@ void TownBuilder::AddPolygon(int node, SurfaceKind surface, const std::vector<st
                              const PolygonLook& look) {
   for (const auto& ring : rings)
     for (const Point3& p : ring) may_be_degrees_ &= std::abs(p.x) <= kMost_deg && std::abs(p.y) <= kMost_deg;
-  const int material = look.material < 0 ? static_cast<int>(surface) : look.material;
+  const int kind = surface == SurfaceKind::kNotSaid ? kUntold : static_cast<int>(surface);
+  const int material = look.material < 0 ? kind : look.material;
   if (may_be_degrees_) return waiting_.push_back({node, material, rings, look});
   TriangulateWaiting();
   Triangulate({node, material, rings, look});
@@ -349,6 +356,20 @@ Error TownBuilder::Finish(const std::string& file, const CityCoordinates& coordi
   return Ok();
 }
 
+// Flat roofs have no tiles.
+void TownBuilder::TellSurfaces() {
+  constexpr double kSteep = 0.3, kFlat = 0.985;  // of a unit normal's height
+  for (Triangle& t : triangles_) {
+    if (t.material != kUntold) continue;
+    const Point3 u{t.b.x - t.a.x, t.b.y - t.a.y, t.b.z - t.a.z}, v{t.c.x - t.a.x, t.c.y - t.a.y, t.c.z - t.a.z};
+    const double x = u.y * v.z - u.z * v.y, y = u.z * v.x - u.x * v.z, z = u.x * v.y - u.y * v.x;
+    const double up = std::abs(z) / std::max(std::hypot(x, y, z), 1e-12);
+    t.material = static_cast<int>(up > kFlat    ? SurfaceKind::kOther
+                                  : up > kSteep ? SurfaceKind::kRoof
+                                                : SurfaceKind::kWall);
+  }
+}
+
 void TownBuilder::Build(Scene* scene) {
   Point2 min{1e300, 1e300}, max{-1e300, -1e300};
   for (const Triangle& t : triangles_) {
@@ -362,6 +383,7 @@ void TownBuilder::Build(Scene* scene) {
   scene->materials.insert(scene->materials.end(), materials_.begin(), materials_.end());
   scene->images = std::move(images_);
   scene->nodes = std::move(nodes_);
+  TellSurfaces();
   AddTriangles(scene);
 }
 

@@ -9,7 +9,8 @@
 
 namespace flaneur {
 
-enum class SurfaceKind { kOther, kWall, kRoof, kGround };  // its colour
+// Its colour. kNotSaid: told by how steep it is, as a building's wall or roof.
+enum class SurfaceKind { kOther, kWall, kRoof, kGround, kGrass, kPaving, kPlants, kWater, kNotSaid };
 
 // In which system the coordinates are.
 struct CityCoordinates {
@@ -73,6 +74,7 @@ class TownBuilder {
   Error CheckReach() const;
   std::string TellWithoutFaces() const;  // of buildings; empty: none
   void Build(Scene* scene);
+  void TellSurfaces();
   void AddTriangles(Scene* scene);
   std::vector<SceneNode> nodes_;
   std::vector<int> foundations_;

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <fstream>
 #include <map>
+#include <set>
 
 #include "pipeline/io/geojson.h"
 #include "pipeline/io/map_projection.h"
@@ -326,6 +327,31 @@ TEST_F(CityModel, CityJsonPartsBelongToTheirBuilding) {
   EXPECT_NEAR(Highest().x, 14, 1e-6);
   for (const SceneNode& node : scene_.nodes)
     EXPECT_EQ(node.kind, node.name == "oak" ? NodeKind::kTree : NodeKind::kBuilding);
+}
+
+// As towns of simple blocks are, which say nothing of walls and roofs.
+TEST_F(CityModel, SurfacesThatSayNothingAreColouredByWhatTheyAre) {
+  const auto object = [](const char* type, const char* surface) {
+    return std::string("\"") + type + R"(":{"type":")" + type +
+           R"(","geometry":[{"type":"MultiSurface","lod":"2","boundaries":[)" + surface + "]}]}";
+  };
+  const std::string text =
+      R"({"type":"CityJSON","version":"2.0","transform":{"scale":[1,1,1],"translate":[0,0,0]},)"
+      R"("vertices":[[0,0,0],[9,0,0],[9,0,8],[0,0,8],[9,5,12],[0,5,12],[9,5,8],[0,5,8]],"CityObjects":{)" +
+      object("Building", "[[0,1,2,3]],[[3,2,4,5]],[[3,2,6,7]]") + "," + object("LandUse", "[[3,2,6,7]]") + "," +
+      object("Road", "[[3,2,6,7]]") + "," + object("PlantCover", "[[3,2,6,7]]") + "," +
+      object("WaterBody", "[[3,2,6,7]]") + "}}";
+  ASSERT_EQ(Read("town.json", text), "");
+  std::map<std::string, std::set<std::string>> looks;
+  for (const SceneNode& node : scene_.nodes)
+    for (const int mesh : node.meshes)
+      looks[node.name].insert(At(scene_.materials, At(scene_.meshes, mesh).material).name);
+  const std::map<std::string, std::set<std::string>> expected{{"Building", {"wall", "roof", "other"}},
+                                                              {"LandUse", {"grass"}},
+                                                              {"Road", {"paving"}},
+                                                              {"PlantCover", {"plants"}},
+                                                              {"WaterBody", {"water"}}};
+  EXPECT_EQ(looks, expected);
 }
 
 TEST_F(CityModel, CityJsonSequence) {
