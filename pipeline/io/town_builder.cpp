@@ -46,12 +46,12 @@ struct SurfaceLook {
   const char* name;
   Vec4 color;
 };
-constexpr std::array<SurfaceLook, 8> kLooks{{{"other", {0.55f, 0.53f, 0.50f, 1}},
-                                             {"wall", {0.72f, 0.66f, 0.55f, 1}},
+constexpr std::array<SurfaceLook, 8> kLooks{{{"other", {0.40f, 0.385f, 0.36f, 1}},
+                                             {"wall", {0.48f, 0.42f, 0.33f, 1}},
                                              {"roof", {0.36f, 0.13f, 0.08f, 1}},
                                              {"ground", {0.30f, 0.27f, 0.22f, 1}},
                                              {"grass", {0.13f, 0.15f, 0.07f, 1}},
-                                             {"paving", {0.25f, 0.24f, 0.22f, 1}},
+                                             {"paving", {0.17f, 0.16f, 0.15f, 1}},
                                              {"plants", {0.10f, 0.15f, 0.05f, 1}},
                                              {"water", {0.08f, 0.13f, 0.15f, 1}}}};
 static_assert(kLooks.size() == static_cast<size_t>(SurfaceKind::kNotSaid));

@@ -17,6 +17,10 @@ void main() {
   float cloud = noise(q) * 0.55 + noise(q * 2.3 + 7.0) * 0.3 + noise(q * 5.1) * 0.15;
   vec3 cloud_color = 0.35 * frame.haze_color.rgb + 0.85 * frame.sky_color.rgb + 0.06 * frame.sun_color.rgb;
   color = mix(color, cloud_color, smoothstep(0.52, 0.85, cloud) * smoothstep(0.02, 0.25, d.y) * 0.65);
+  // Land below the horizon, where the town has none: it lies deep enough for any town's rim to stand over it.
+  float away = 10.0 / max(-d.y, 1e-4);
+  vec3 land = vec3(0.12, 0.125, 0.08) * (frame.sun_color.rgb * max(frame.to_sun.y, 0.0) + frame.sky_color.rgb);
+  if (d.y < 0.0) color = mix(land, frame.haze_color.rgb, 1.0 - exp(-away * 0.0014));
   float glow = max(dot(d, frame.to_sun.xyz), 0.0);
   color += frame.sun_color.rgb * (pow(glow, 500.0) * 4.0 + pow(glow, 12.0) * 0.08);
   color = (color * (2.51 * color + 0.03)) / (color * (2.43 * color + 0.59) + 0.14);

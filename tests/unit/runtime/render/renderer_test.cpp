@@ -28,6 +28,19 @@ TEST_F(Drawing, ABoxIsWhereTheProjectionSays) {
   EXPECT_FALSE(IsRed(Pixel(rgb, column(0), row(-1.8f))));
 }
 
+// Where the town has no ground: whoever looks out of it sees land that fades into the haze.
+TEST_F(Drawing, BelowTheHorizonLiesLand) {
+  TourPack pack = MakePack({});
+  pack.town.clear();
+  const std::vector<uint8_t> rgb = Draw(pack, LookEast());
+  const Rgb haze = Pixel(rgb, kWidth / 2, kHeight / 2), half = Pixel(rgb, kWidth / 2, kHeight * 5 / 8),
+            near = Pixel(rgb, kWidth / 2, kHeight - 2);
+  EXPECT_GT(haze.b, haze.r) << "as the sky's";
+  EXPECT_GT(near.g, near.b + 20);
+  EXPECT_GT(haze.r, half.r + 10);
+  EXPECT_GT(half.r, near.r);
+}
+
 // A blue plate that hangs before the chest, or behind the back: on meshes and impostors, fine and fast.
 TEST_F(Drawing, APropIsDrawnBeforeThePersonOrHiddenBehindThem) {
   for (const bool in_front : {true, false}) {
