@@ -9,6 +9,7 @@
 
 #include "pipeline/footprint/box_grid.h"
 #include "pipeline/footprint/disjoint_sets.h"
+#include "pipeline/footprint/polygon_sets.h"
 
 namespace flaneur {
 namespace {
@@ -20,12 +21,13 @@ constexpr double kOver_m = 0.5;    // what begins so much higher, with its middl
 constexpr double kBeside_m = 0.5;  // or before its wall, as windows lie,
 constexpr double kHouse_m = 60;    // unless that is larger, as a town wall's is
 constexpr double kLeastCell_m = 2.5;
-constexpr int kMostCells = 100;  // a side
+constexpr int kMostCells = 128;  // a side
 
 // A thing's box on the map, and from where to where it reaches above it.
 struct Foot {
   BoundingBox box;
   double height_m = 1e300, top_m = -1e300;
+  const TownObject* thing = nullptr;  // null: a piece of one
 };
 
 void Grow(const Point3& p, Foot* f) {
@@ -47,10 +49,26 @@ bool IsLarge(const Point& min, const Point& max) {
   return max.x - min.x > kHouse_m || max.y - min.y > kHouse_m;
 }
 
+// On the map, or beside it by no more than a window before its wall. Of houses that stand askew the box says little.
+bool Covers(const Foot& house, Point2 p) {
+  if (!house.thing || house.thing->triangles.empty()) return true;
+  const std::vector<Triangle3>& triangles = house.thing->triangles;
+  return std::any_of(triangles.begin(), triangles.end(), [&](const Triangle3& t) {
+    double turns[3];
+    bool beside = false;
+    for (size_t i = 0; i < 3; ++i) {
+      const Point2 a{t[i].x, t[i].y}, b{t[(i + 1) % 3].x, t[(i + 1) % 3].y};
+      turns[i] = (b.x - a.x) * (p.y - a.y) - (b.y - a.y) * (p.x - a.x);
+      beside |= DistanceToSegment(p, a, b) < kBeside_m;
+    }
+    return beside || (turns[0] > 0 && turns[1] > 0 && turns[2] > 0) || (turns[0] < 0 && turns[1] < 0 && turns[2] < 0);
+  });
+}
+
 // Of what lies over each other on the map.
 bool IsPartOf(const Foot& part, const Foot& house) {
   return !IsLarge(house.box.min, house.box.max) && house.height_m < part.height_m - kOver_m &&
-         house.top_m > part.height_m - kOver_m;
+         house.top_m > part.height_m - kOver_m && Covers(house, Middle(part.box));
 }
 
 // Without roofs, windows and what else is modelled apart.
@@ -58,6 +76,7 @@ std::vector<Foot> WithoutParts(const std::vector<Foot>& all) {
   const BoxGrid grid = GridOf(all);
   std::vector<Foot> feet;
   std::copy_if(all.begin(), all.end(), std::back_inserter(feet), [&](const Foot& f) {
+    if (f.thing && !f.thing->foundation.empty()) return true;  // the model says what it stands on
     const Point2 middle = Middle(f.box);
     const std::vector<size_t> here = grid.Near({middle, middle}, kBeside_m);
     return std::none_of(here.begin(), here.end(), [&](size_t house) { return IsPartOf(f, all[house]); });
@@ -113,21 +132,25 @@ std::vector<Foot> FeetOf(const std::vector<TownObject>& things) {
     }
     Grow(t.min_m, &feet.emplace_back());
     Grow(t.max_m, &feet.back());
+    feet.back().thing = &t;
   }
   const std::vector<Foot> alone = WithoutStrays(WithoutParts(feet));
   return alone.empty() ? feet : alone;
 }
 
-double HeightAt(const std::vector<Foot>& feet, double x, double y) {
-  double sum = 0, weights = 0;
+// At a corner of cells of this size. Where a cell touches a thing its corners are no lower than the foot: nobody's
+// walls hang in the air, while a city model's feet lie as deep as the lowest ground under them.
+double HeightAt(const std::vector<Foot>& feet, double x, double y, double cell_x_m, double cell_y_m) {
+  double sum = 0, weights = 0, highest_foot = -1e300;
   for (const Foot& f : feet) {
     const double dx = std::max({f.box.min.x - x, x - f.box.max.x, 0.0});
     const double dy = std::max({f.box.min.y - y, y - f.box.max.y, 0.0});
     const double distance2 = dx * dx + dy * dy + 1;
     const double weight = 1 / (distance2 * distance2);
     sum += weight * f.height_m, weights += weight;
+    if (dx < cell_x_m && dy < cell_y_m) highest_foot = std::max(highest_foot, f.height_m);
   }
-  return sum / weights;
+  return std::max(sum / weights, highest_foot);
 }
 
 // A lattice over the map, and its heights, row by row.
@@ -152,8 +175,8 @@ Lattice Over(const Foot& around, const std::vector<Foot>& feet, bool on_one_leve
   l.columns = cells(l.width_m), l.rows = cells(l.depth_m);
   for (int row = 0; row <= l.rows; ++row) {
     for (int column = 0; column <= l.columns; ++column) {
-      l.heights_m.push_back(
-          HeightAt(feet, l.left_m + l.width_m * column / l.columns, l.bottom_m + l.depth_m * row / l.rows));
+      l.heights_m.push_back(HeightAt(feet, l.left_m + l.width_m * column / l.columns,
+                                     l.bottom_m + l.depth_m * row / l.rows, l.width_m / l.columns, l.depth_m / l.rows));
     }
   }
   return l;

@@ -101,5 +101,37 @@ TEST(BareGround, FollowsAHillsideByTheFeetOfItsHousesAndNotByTheirRoofs) {
   }
 }
 
+// A house that stands askew, as most do, and a smaller one within its bounding box, but beside it and higher up.
+TEST(BareGround, NobodysWallsHangInTheAirBesideALowerNeighbour) {
+  constexpr double kUp_m = 0.8;
+  TownObject large;
+  const std::array<Point2, 4> outline{{{0, 0}, {5, -5}, {30, 20}, {25, 25}}};
+  for (size_t k = 0; k < 4; ++k) {
+    const Point2 a = outline[k], b = outline[(k + 1) % 4];
+    large.triangles.push_back({{{a.x, a.y, 0}, {b.x, b.y, 0}, {b.x, b.y, 9}}});
+    large.triangles.push_back({{{a.x, a.y, 0}, {b.x, b.y, 9}, {a.x, a.y, 9}}});
+  }
+  large.triangles.push_back({{{0, 0, 9}, {5, -5, 9}, {30, 20, 9}}});
+  large.triangles.push_back({{{0, 0, 9}, {30, 20, 9}, {25, 25, 9}}});
+  large.min_m = {0, -5, 0}, large.max_m = {30, 25, 9};
+  const TownObject small = Merged({Box({22, -2, kUp_m}, {6, 6, 3})});
+  std::vector<TownObject> things{large, small};
+  for (int k = 0; k < 5; ++k) things.push_back(Box({-300.0 + 100 * k, 200, 0}, {10, 10, 6}));  // a wide town
+  const Mesh ground = BareGround(things, false, 15);
+  int under = 0;
+  for (size_t i = 0; i + 2 < ground.indices.size(); i += 3) {
+    Point3 low{1e9, 1e9, 1e9}, high{-1e9, -1e9, -1e9};
+    for (size_t k = 0; k < 3; ++k) {
+      const Vec3 p = GroundFromGltf(ground.positions[ground.indices[i + k]]);
+      low = {std::min(low.x, double(p.x)), std::min(low.y, double(p.y)), std::min(low.z, double(p.z))};
+      high = {std::max(high.x, double(p.x)), std::max(high.y, double(p.y)), 0};
+    }
+    if (high.x < small.min_m.x || low.x > small.max_m.x || high.y < small.min_m.y || low.y > small.max_m.y) continue;
+    EXPECT_GE(low.z, kUp_m - 1e-3);
+    ++under;
+  }
+  EXPECT_GT(under, 0);
+}
+
 }  // namespace
 }  // namespace flaneur
