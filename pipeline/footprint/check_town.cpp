@@ -153,20 +153,34 @@ class TownCheck {
     return UnionOfAreas(all);
   }
 
+  // Walls without the whole clearance.
+  struct Narrow {
+    const TownObject* object;
+    BoundingBox box;
+    std::vector<Segment> walls;
+  };
+
+  // 301, 302: once for each object, at the worst place.
   void FindWalls() {
     std::vector<LocalGround> terrain;
     std::vector<Neighbours> neighbours;
     if (!objects_.ground.empty()) terrain.emplace_back(town_.below_bridges);
     else neighbours = TellingOfGround(objects_.obstacles, town_.adjoining);
+    std::vector<Narrow> narrow;
     for (size_t i = 0; i < objects_.obstacles.size(); ++i) {
       const TownObject& object = objects_.obstacles[i];
-      if (missing_.contains(object.name) || object.is_bridge) continue;
+      if (missing_.contains(object.name)) continue;
       const BoundingBox box{{object.min_m.x, object.min_m.y}, {object.max_m.x, object.max_m.y}};
       if (IsBroken(object.name, box)) continue;
-      if (object.kind == ObstacleKind::kTree || object.kind == ObstacleKind::kLamp) FindTrunk(object, box);
+      if (object.is_bridge || object.kind == ObstacleKind::kTree || object.kind == ObstacleKind::kLamp)
+        CheckWalls(object, box, OwnWithoutClearance(object, box), &narrow);
       else
-        CheckWalls(object, box, WallsInBand(object, terrain.empty() ? GroundsUnder(object, neighbours[i]) : terrain));
+        CheckWalls(object, box, WallsInBand(object, terrain.empty() ? GroundsUnder(object, neighbours[i]) : terrain),
+                   &narrow);
     }
+    std::stable_sort(narrow.begin(), narrow.end(),
+                     [](const Narrow& a, const Narrow& b) { return Length(a.walls) > Length(b.walls); });
+    for (const Narrow& n : narrow) TellNarrow(n);
   }
 
   // Over the same ground as the extraction's.
@@ -179,35 +193,59 @@ class TownCheck {
     return walls;
   }
 
-  void FindTrunk(const TownObject& object, const BoundingBox& box) {
+  // What the extraction covers, less the clearance: of trunks, and of bridges, whose decks are ways.
+  std::vector<Segment> OwnWithoutClearance(const TownObject& object, const BoundingBox& box) const {
+    const double clearance_m = std::max(state_.clearance_m, 0.0);
+    std::vector<Segment> lines;
     for (const size_t i : truth_grid_.Near(box, kNearWall_m)) {
       const Footprint& f = truth_[i];
-      if (f.obstacle->source != object.name || !f.obstacle->outer.empty()) continue;
-      const double radius = f.obstacle->radius_m - std::max(state_.clearance_m, 0.0);
-      if (radius > 0) CheckWalls(object, box, Outline({CircleRing(f.obstacle->center, radius)}));
+      if (f.obstacle->source != object.name) continue;
+      const double radius = f.obstacle->radius_m - clearance_m;
+      if (f.obstacle->outer.empty() && radius <= 0) continue;
+      const std::vector<Segment> more = Outline(
+          f.obstacle->outer.empty() ? Rings{CircleRing(f.obstacle->center, radius)} : Offset(f.rings, -clearance_m));
+      lines.insert(lines.end(), more.begin(), more.end());
     }
+    return lines;
   }
 
-  // 301, 302: once for each object, at the worst place.
-  void CheckWalls(const TownObject& object, const BoundingBox& box, const std::vector<Segment>& walls) {
+  void CheckWalls(const TownObject& object, const BoundingBox& box, const std::vector<Segment>& walls,
+                  std::vector<Narrow>* narrow) {
     const double tolerance = state_.options.tolerance_m, short_of = state_.clearance_m - tolerance;
     const Rings cover = CoverNear(box);
-    const AreaIndex index(cover, std::max(1.0, 2 * state_.clearance_m));
     const std::vector<Segment> bare = Outside(walls, Offset(cover, tolerance));
     if (Length(bare) > kMinWallFinding_m) {
-      const auto [depth, at] = Worst(bare, index);
+      const auto [depth, at] = Worst(bare, AreaIndex(cover, std::max(1.0, 2 * state_.clearance_m)));
+      bare_.insert(object.name);
       state_.Add(301, object.name, at, -depth, tolerance,
                  "a wall of '" + object.name + "' stands out by " + Metres(-depth));
       return;
     }
     if (short_of <= 0) return;
-    const std::vector<Segment> near = Outside(walls, Offset(cover, -(short_of - kOutlineRounding_m)));
-    if (Length(near) <= kMinWallFinding_m) return;
-    const auto [depth, at] = Worst(near, index);
+    const Rings enough = Offset(cover, -(short_of - kOutlineRounding_m));
+    const std::vector<Segment> near = Outside(walls, enough);
+    if (Length(near) > kMinWallFinding_m) narrow->push_back({&object, box, PiecesOutside(near, enough)});
+  }
+
+  // A wall that is shared with a house whose own obstacle is missing or wrong is told of there.
+  void TellNarrow(const Narrow& n) {
+    const double short_of = state_.clearance_m - state_.options.tolerance_m;
+    Rings told;
+    for (const size_t i : truth_grid_.Near(n.box, kNearWall_m)) {
+      const std::string& source = truth_[i].obstacle->source;
+      if (source != n.object->name && (missing_.contains(source) || bare_.contains(source) || IsBroken(source, n.box)))
+        told.insert(told.end(), truth_[i].rings.begin(), truth_[i].rings.end());
+    }
+    const std::vector<Segment> walls =
+        told.empty() ? n.walls
+                     : PiecesOutside(n.walls, Offset(UnionOfAreas(told), state_.clearance_m + kOutlineRounding_m));
+    if (!told.empty() && Length(walls) <= kMinWallFinding_m) return;
+    const auto [depth, at] = Worst(walls, AreaIndex(CoverNear(n.box), std::max(1.0, 2 * state_.clearance_m)));
     const double left = std::max(depth, 0.0);
-    if (left < short_of)
-      state_.Add(302, object.name, at, left, state_.clearance_m,
-                 "only " + Metres(left) + " beside a wall of '" + object.name + "'");
+    if (left >= short_of) return;
+    bare_.insert(n.object->name);
+    state_.Add(302, n.object->name, at, left, state_.clearance_m,
+               "only " + Metres(left) + " beside a wall of '" + n.object->name + "'");
   }
 
   static std::pair<double, Point2> Worst(const std::vector<Segment>& walls, const AreaIndex& cover) {
@@ -293,7 +331,7 @@ class TownCheck {
   std::vector<Footprint> truth_;
   BoxGrid truth_grid_, obstacle_grid_;
   std::vector<const CheckedObstacle*> broken_;
-  std::set<std::string> missing_;
+  std::set<std::string> missing_, bare_;  // without an obstacle; whose walls stand out of theirs, or nearly do
   std::set<const CheckedObstacle*> strange_;
 };
 

@@ -343,23 +343,43 @@ std::vector<Rings> Enclosed(const std::vector<Segment>& segments, const Rings& a
   return regions;
 }
 
+namespace {
+
+constexpr double kMinOutside_m = 0.001;  // shorter pieces outside do not count
+
+// Where along a segment, from 0 to 1, its pieces outside begin and end: the first, or all of them.
+std::vector<std::pair<double, double>> SharesOutside(const Segment& s, const AreaIndex& index, bool all) {
+  std::vector<double> cuts = index.Crossings(s);
+  cuts.insert(cuts.end(), {0.0, 1.0});
+  std::sort(cuts.begin(), cuts.end());
+  const double least = kMinOutside_m / std::max(kMinOutside_m, Length(s));
+  std::vector<std::pair<double, double>> shares;
+  for (size_t i = 0; i + 1 < cuts.size() && (all || shares.empty()); ++i) {
+    const double t = (cuts[i] + cuts[i + 1]) / 2;
+    if (cuts[i + 1] - cuts[i] >= least && !index.Inside({s.a.x + t * (s.b.x - s.a.x), s.a.y + t * (s.b.y - s.a.y)}))
+      shares.emplace_back(cuts[i], cuts[i + 1]);
+  }
+  return shares;
+}
+
+}  // namespace
+
 std::vector<Segment> Outside(const std::vector<Segment>& segments, const Rings& area) {
   if (area.empty() || segments.empty()) return segments;
-  constexpr double kMinOutside_m = 0.001;  // shorter pieces outside do not count
+  const AreaIndex index(area, 0.01);
+  std::vector<Segment> out;
+  for (const Segment& s : segments)
+    if (!SharesOutside(s, index, false).empty()) out.push_back(s);
+  return out;
+}
+
+std::vector<Segment> PiecesOutside(const std::vector<Segment>& segments, const Rings& area) {
+  if (area.empty()) return segments;
   const AreaIndex index(area, 0.01);
   std::vector<Segment> out;
   for (const Segment& s : segments) {
-    std::vector<double> cuts = index.Crossings(s);
-    cuts.insert(cuts.end(), {0.0, 1.0});
-    std::sort(cuts.begin(), cuts.end());
-    const double least = kMinOutside_m / std::max(kMinOutside_m, std::hypot(s.b.x - s.a.x, s.b.y - s.a.y));
-    bool inside = true;
-    for (size_t i = 0; i + 1 < cuts.size() && inside; ++i) {
-      const double t = (cuts[i] + cuts[i + 1]) / 2;
-      if (cuts[i + 1] - cuts[i] >= least)
-        inside = index.Inside({s.a.x + t * (s.b.x - s.a.x), s.a.y + t * (s.b.y - s.a.y)});
-    }
-    if (!inside) out.push_back(s);
+    const auto at = [&](double t) { return Point2{s.a.x + t * (s.b.x - s.a.x), s.a.y + t * (s.b.y - s.a.y)}; };
+    for (const auto& [from, to] : SharesOutside(s, index, true)) out.push_back({at(from), at(to)});
   }
   return out;
 }

@@ -49,6 +49,8 @@ Rings OffsetSegments(const std::vector<Segment>& segments, double distance_m);
 std::vector<Rings> Enclosed(const std::vector<Segment>& segments, const Rings& areas, double reach_m);
 // The segments that lie, wholly or in part, outside the area.
 std::vector<Segment> Outside(const std::vector<Segment>& segments, const Rings& area);
+// Likewise, but only the pieces that lie outside.
+std::vector<Segment> PiecesOutside(const std::vector<Segment>& segments, const Rings& area);
 
 // Drops vertices where the boundary moves outwards by at most tolerance_m; inwards by no more than the grid is wide.
 Rings Simplify(const Rings& rings, double tolerance_m);

@@ -3,9 +3,12 @@
 
 #include <cmath>
 #include <cstdlib>
+#include <functional>
+#include <map>
 #include <random>
 
 #include "pipeline/footprint/check.h"
+#include "pipeline/footprint/polygon_sets.h"
 #include "runtime/base/array.h"
 #include "tests/unit/pipeline/footprint/test_town.h"
 
@@ -220,6 +223,87 @@ TEST(OwnOutput, IsRightInMixturesOfEverything) {
     Footprints footprints;
     ASSERT_EQ(ExtractFootprints(mixture.town.scene, mixture.Options(), &footprints).message, "");
     ExpectNoOwnFault(mixture.town.scene, footprints, seed);
+  }
+}
+
+// ---- One fault at a time ----
+
+Ring Moved(Ring ring, double x, double y) {
+  for (Point2& p : ring) p.x += x, p.y += y;
+  return ring;
+}
+
+// The obstacle, broken; false where it does not lend itself to it. `feature`: where the finding belongs.
+using Break = std::function<bool(size_t at, Dice& dice, Footprints* footprints, std::string* feature)>;
+
+bool Resized(double by_m, Obstacle* o) {
+  const Rings rings = Offset({o->outer}, by_m);
+  if (rings.size() != 1) return false;
+  o->outer = rings[0];
+  return true;
+}
+
+const std::map<std::string, Break> kBreaks{
+    {"moved by 0.3 m",
+     [](size_t at, Dice& dice, Footprints* f, std::string*) {
+       const float way = dice.Any(0, 2 * kPi);
+       Obstacle& o = f->obstacles[at];
+       o.outer = Moved(o.outer, 0.3 * std::cos(way), 0.3 * std::sin(way));
+       for (Ring& hole : o.holes) hole = Moved(hole, 0.3 * std::cos(way), 0.3 * std::sin(way));
+       return true;
+     }},
+    {"left out",
+     [](size_t at, Dice&, Footprints* f, std::string* feature) {
+       *feature = f->obstacles[at].source;
+       std::erase_if(f->obstacles, [&](const Obstacle& o) { return o.source == *feature; });
+       return true;
+     }},
+    {"too small", [](size_t at, Dice&, Footprints* f, std::string*) { return Resized(-0.12, &f->obstacles[at]); }},
+    {"too large", [](size_t at, Dice&, Footprints* f, std::string*) { return Resized(0.4, &f->obstacles[at]); }},
+    {"one corner moved by 0.5 m",
+     [](size_t at, Dice& dice, Footprints* f, std::string*) {
+       Ring& ring = f->obstacles[at].outer;
+       const float way = dice.Any(0, 2 * kPi);
+       Point2& corner = ring[static_cast<size_t>(dice.Below(Count(ring)))];
+       corner.x += 0.5 * std::cos(way), corner.y += 0.5 * std::sin(way);
+       return true;
+     }},
+    {"nobody's", [](size_t at, Dice&, Footprints* f, std::string* feature) {
+       Obstacle strange = f->obstacles[at];
+       strange.name = strange.source = *feature = "strange";
+       strange.outer = {{-20, -20}, {-15, -20}, {-15, -15}, {-20, -15}};
+       strange.holes.clear();
+       f->obstacles.push_back(std::move(strange));
+       return true;
+     }}};
+
+TEST(OwnOutput, OneFaultIsFoundWhereItIsAndNothingElse) {
+  for (unsigned seed = 1; seed <= Towns(30); ++seed) {
+    Mixture mixture(seed);
+    const Scene& town = mixture.town.scene;
+    Footprints sound;
+    ASSERT_EQ(ExtractFootprints(town, {}, &sound).message, "");
+    Dice dice(seed);
+    std::vector<size_t> polygons;
+    for (size_t i = 0; i < sound.obstacles.size(); ++i)
+      if (!sound.obstacles[i].outer.empty()) polygons.push_back(i);
+    if (polygons.empty()) continue;
+    const size_t at = At(polygons, dice.Below(Count(polygons)));
+    for (const auto& [name, make] : kBreaks) {
+      Footprints broken = sound;
+      const std::string source = sound.obstacles[at].source;
+      std::string feature = sound.obstacles[at].name;
+      if (!make(at, dice, &broken, &feature)) continue;
+      std::vector<Finding> findings;
+      ASSERT_EQ(Check(broken, &town, {}, &findings).message, "");
+      bool found = false;
+      for (const Finding& f : findings) {
+        const bool its_own = f.feature == feature || f.feature == source || f.other == feature;
+        found |= its_own && f.code < 403;
+        EXPECT_FALSE(!its_own && IsOwnFault(f.code, 1)) << "seed " << seed << ", " << name << ": " << f.message;
+      }
+      EXPECT_TRUE(found) << "seed " << seed << ": " << feature << " " << name;
+    }
   }
 }
 
