@@ -75,7 +75,7 @@ void Fields(A& a, Obstacle* v) {
 }
 template <typename A>
 void Fields(A& a, Footprints* v) {
-  a(&v->clearance_m, &v->band_m, &v->origin_m, &v->reference_system, &v->obstacles);
+  a(&v->clearance_m, &v->tolerance_m, &v->band_m, &v->origin_m, &v->reference_system, &v->obstacles);
 }
 template <typename A>
 void Fields(A& a, GroundRaster* v) {

@@ -216,7 +216,7 @@ class TownCheck {
     const std::vector<Segment> bare = Outside(walls, Offset(cover, tolerance));
     if (Length(bare) > kMinWallFinding_m) {
       const auto [depth, at] = Worst(bare, AreaIndex(cover, std::max(1.0, 2 * state_.clearance_m)));
-      bare_.insert(object.name);
+      wrong_.insert(object.name);
       state_.Add(301, object.name, at, -depth, tolerance,
                  "a wall of '" + object.name + "' stands out by " + Metres(-depth));
       return;
@@ -233,7 +233,7 @@ class TownCheck {
     Rings told;
     for (const size_t i : truth_grid_.Near(n.box, kNearWall_m)) {
       const std::string& source = truth_[i].obstacle->source;
-      if (source != n.object->name && (missing_.contains(source) || bare_.contains(source) || IsBroken(source, n.box)))
+      if (source != n.object->name && (missing_.contains(source) || wrong_.contains(source) || IsBroken(source, n.box)))
         told.insert(told.end(), truth_[i].rings.begin(), truth_[i].rings.end());
     }
     const std::vector<Segment> walls =
@@ -243,7 +243,7 @@ class TownCheck {
     const auto [depth, at] = Worst(walls, AreaIndex(CoverNear(n.box), std::max(1.0, 2 * state_.clearance_m)));
     const double left = std::max(depth, 0.0);
     if (left >= short_of) return;
-    bare_.insert(n.object->name);
+    wrong_.insert(n.object->name);
     state_.Add(302, n.object->name, at, left, state_.clearance_m,
                "only " + Metres(left) + " beside a wall of '" + n.object->name + "'");
   }
@@ -331,7 +331,7 @@ class TownCheck {
   std::vector<Footprint> truth_;
   BoxGrid truth_grid_, obstacle_grid_;
   std::vector<const CheckedObstacle*> broken_;
-  std::set<std::string> missing_, bare_;  // without an obstacle; whose walls stand out of theirs, or nearly do
+  std::set<std::string> missing_, wrong_;  // objects without an obstacle, and those whose walls theirs do not hold
   std::set<const CheckedObstacle*> strange_;
 };
 
