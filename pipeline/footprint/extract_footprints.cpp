@@ -192,14 +192,17 @@ class NameGiver {
   std::set<std::string> used_;
 };
 
-// Of neighbours in a ring that are no farther apart than this one stays.
+// Of neighbours in a ring that are no farther apart than this one stays, unless the ring would cross itself.
 Ring WithoutNearPoints(const Ring& ring, double near_m) {
   const auto near = [&](Point2 a, Point2 b) { return std::hypot(a.x - b.x, a.y - b.y) <= near_m; };
   Ring kept;
   for (const Point2& p : ring)
     if (kept.empty() || !near(kept.back(), p)) kept.push_back(p);
   while (kept.size() > 3 && near(kept.back(), kept.front())) kept.pop_back();
-  return kept.size() < 3 ? ring : kept;
+  if (kept.size() == ring.size() || kept.size() < 3) return ring;
+  const std::vector<Polygon> parts = ToPolygons({kept});
+  const bool is_simple = parts.size() == 1 && parts[0].holes.empty() && parts[0].outer.size() == kept.size();
+  return is_simple ? kept : ring;
 }
 
 void AddPolygons(const Site& site, const TownObject& object, const Shape& shape, const Rings& rings, NameGiver* names,
