@@ -54,14 +54,8 @@ bool Covers(const Foot& house, Point2 p) {
   if (!house.thing || house.thing->triangles.empty()) return true;
   const std::vector<Triangle3>& triangles = house.thing->triangles;
   return std::any_of(triangles.begin(), triangles.end(), [&](const Triangle3& t) {
-    double turns[3];
-    bool beside = false;
-    for (size_t i = 0; i < 3; ++i) {
-      const Point2 a{t[i].x, t[i].y}, b{t[(i + 1) % 3].x, t[(i + 1) % 3].y};
-      turns[i] = (b.x - a.x) * (p.y - a.y) - (b.y - a.y) * (p.x - a.x);
-      beside |= DistanceToSegment(p, a, b) < kBeside_m;
-    }
-    return beside || (turns[0] > 0 && turns[1] > 0 && turns[2] > 0) || (turns[0] < 0 && turns[1] < 0 && turns[2] < 0);
+    const Ring plan{{t[0].x, t[0].y}, {t[1].x, t[1].y}, {t[2].x, t[2].y}};
+    return Contains(plan, p) || DistanceToBoundary({plan}, p) < kBeside_m;
   });
 }
 

@@ -106,9 +106,12 @@ Error PrepareTown(const Scene& town, const Footprints& footprints, const CheckOp
     FindLevelFeet(BlocksOf(prepared->adjoining), options.threads, &objects);
     FindFloors(extraction, kMinFloor, &objects);
   }
-  GroundRasterOptions below_bridges;
-  below_bridges.with_decks = false;
-  if (Error error = RasterizeGround(prepared->objects, below_bridges, &prepared->below_bridges)) return error;
+  if (!prepared->objects.ground.empty() && HasBridge(prepared->objects)) {
+    GroundRasterOptions below_bridges;
+    below_bridges.with_decks = false;
+    if (Error error = RasterizeGround(prepared->objects, below_bridges, &prepared->below_bridges.emplace()))
+      return error;
+  }
   return RasterizeGround(prepared->objects, {}, &prepared->ground);
 }
 

@@ -1,5 +1,6 @@
 // Is this set of obstacles fit for a crowd? Every finding has a number, a place and an advice.
 #pragma once
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -68,7 +69,8 @@ struct PreparedTown {
   Footprints own;  // what the extraction makes of it, with the obstacles' clearance and band
   std::vector<std::string> open_shells;
   GroundRaster ground;
-  GroundRaster below_bridges;  // the ground without their decks, over which the extraction cuts walls
+  // The ground without bridges' decks, over which the extraction cuts walls; none where it is the same.
+  std::optional<GroundRaster> below_bridges;
 };
 // `footprints` is for its clearance and band. Errors: as for ExtractFootprints.
 Error PrepareTown(const Scene& town, const Footprints& footprints, const CheckOptions& options, PreparedTown* prepared);

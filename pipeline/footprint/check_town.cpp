@@ -164,7 +164,7 @@ class TownCheck {
   void FindWalls() {
     std::vector<LocalGround> terrain;
     std::vector<Neighbours> neighbours;
-    if (!objects_.ground.empty()) terrain.emplace_back(town_.below_bridges);
+    if (!objects_.ground.empty()) terrain.emplace_back(town_.below_bridges ? *town_.below_bridges : town_.ground);
     else neighbours = TellingOfGround(objects_.obstacles, town_.adjoining);
     std::vector<Narrow> narrow;
     for (size_t i = 0; i < objects_.obstacles.size(); ++i) {

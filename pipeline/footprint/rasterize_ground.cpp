@@ -279,9 +279,7 @@ Error RasterizeGround(const TownObjects& town, const GroundRasterOptions& option
   for (const GroundPatch& patch : town.ground)
     for (const Triangle3& t : patch.triangles) DrawTriangle(t, patch.kind, raster);
   StepOverCracks(raster);
-  const bool any_bridge =
-      std::any_of(town.obstacles.begin(), town.obstacles.end(), [](const TownObject& o) { return o.is_bridge; });
-  if (options.with_decks && any_bridge && !bare) DrawDecks(town, raster);
+  if (options.with_decks && !bare && HasBridge(town)) DrawDecks(town, raster);
   return Ok();
 }
 

@@ -205,6 +205,10 @@ void Grow(const std::vector<Triangle3>& triangles, Point3* min, Point3* max) {
   }
 }
 
+bool HasBridge(const TownObjects& town) {
+  return std::any_of(town.obstacles.begin(), town.obstacles.end(), [](const TownObject& o) { return o.is_bridge; });
+}
+
 TownObjects SortTown(const Scene& scene, double scale) {
   TownObjects town;
   std::map<int, size_t> object_of_root;

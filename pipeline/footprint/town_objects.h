@@ -41,6 +41,7 @@ struct TownObjects {
   std::vector<std::string> flat;    // untagged objects that are ground only because they are flat
   std::vector<std::string> untold;  // untagged objects that hold ground by their shape, wholly or in part
 };
+bool HasBridge(const TownObjects& town);
 
 // Parts of one tagged node are one object. Untagged nodes are told by the words of their names (tree; lamp, lantern;
 // road, street, grass, square, ground, terrain, floor, hex, path and the like, in other languages too, unless too high
