@@ -142,8 +142,8 @@ def main():
         open_input(path)
     except RuntimeError as error:
         fail("%s: %s" % (path, str(error).replace("Error: ", "")))
-    if not any(thing.type == "MESH" for thing in bpy.context.scene.objects):
-        fail("%s: holds no mesh" % path)
+    if not any(thing.type in ("MESH", "ARMATURE") for thing in bpy.context.scene.objects):
+        fail("%s: holds neither a mesh nor a rig" % path)
     only_clips_of_rigs()
     stand_at_rest()
     hang_on_bones()

@@ -727,9 +727,7 @@ Error LoadPerson(const std::filesystem::path& path, GltfDocument* document, std:
   if (NeedsBlender(path) || HasExtension(path, ".obj")) {
     if (Error e = ConvertToGltf(path, &folder, &gltf)) return e;
   }
-  if (Error e = LoadGltf(gltf, document, warnings)) return e;
-  document->path = path.string();
-  return Ok();
+  return LoadGltf(gltf, document, warnings, path);
 }
 
 }  // namespace

@@ -23,8 +23,9 @@ namespace flaneur {
 // are left out. Tags come from node extras by the town convention; ground without `flaneur_ground`
 // is pavement. Only images that a material uses are kept. Errors: unreadable or broken file,
 // unknown required extension, unknown tag value, a non-finite vertex (names node and mesh), no
-// triangle at all.
-Error ReadGltfScene(const std::filesystem::path& path, Scene* scene, std::vector<std::string>* warnings = nullptr);
+// triangle at all. Messages call the file `named`, as LoadGltf's do.
+Error ReadGltfScene(const std::filesystem::path& path, Scene* scene, std::vector<std::string>* warnings = nullptr,
+                    const std::filesystem::path& named = {});
 
 // A clip besides walk, idle and talk, or one of these from a file of its own.
 struct ClipRequest {

@@ -202,9 +202,10 @@ std::vector<Mat4> WorldMatrices(const GltfDocument& document) {
   return world;
 }
 
-Error LoadGltf(const std::filesystem::path& path, GltfDocument* document, std::vector<std::string>* warnings) {
+Error LoadGltf(const std::filesystem::path& path, GltfDocument* document, std::vector<std::string>* warnings,
+               const std::filesystem::path& named) {
   *document = {};
-  document->path = path.string();
+  document->path = (named.empty() ? path : named).string();
   Model model;
   if (Error e = ParseGltf(path, &model)) return e;
   std::vector<std::string> notes;

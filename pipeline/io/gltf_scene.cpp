@@ -114,10 +114,11 @@ class MeshTable {
 
 }  // namespace
 
-Error ReadGltfScene(const std::filesystem::path& path, Scene* scene, std::vector<std::string>* warnings) {
+Error ReadGltfScene(const std::filesystem::path& path, Scene* scene, std::vector<std::string>* warnings,
+                    const std::filesystem::path& named) {
   GltfDocument document;
   std::vector<std::string> notes;
-  if (Error e = LoadGltf(path, &document, &notes)) return e;
+  if (Error e = LoadGltf(path, &document, &notes, named)) return e;
   if (warnings != nullptr) warnings->insert(warnings->end(), notes.begin(), notes.end());
   *scene = {};
   scene->materials = std::move(document.materials);

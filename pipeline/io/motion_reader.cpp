@@ -82,7 +82,7 @@ Error Open(const fs::path& path, MotionFile* motion) {
     if (Error e = ConvertToGltf(path, &folder, &gltf)) return e;
   }
   std::vector<std::string> notes;  // of pictures and the like, which don't matter here
-  if (Error e = LoadGltf(gltf, &motion->document, &notes)) return e;
+  if (Error e = LoadGltf(gltf, &motion->document, &notes, path)) return e;
   for (const DocumentClip& clip : motion->document.clips) motion->clip_names.push_back(clip.name);
   TakeSkeleton(motion);
   return Ok();

@@ -33,7 +33,7 @@ bool IsCityJson(const std::string& text, char first) {
 // The glTF that `path` is, or that was made of it; a format that knows which way is up.
 Error ReadUpright(const std::filesystem::path& gltf, const std::filesystem::path& path, UpAxis up, Scene* scene,
                   std::vector<std::string>* warnings) {
-  if (Error e = ReadGltfScene(gltf, scene, warnings)) return e;
+  if (Error e = ReadGltfScene(gltf, scene, warnings, path)) return e;
   UpAxis thin = UpAxis::kJudged;
   if (up != UpAxis::kJudged) {
     StandUp(up, scene);

@@ -1,4 +1,4 @@
-"""Makes a rigged figure of four ellipsoids that walks and stands, as .blend, .fbx, .dae and .obj, with a hat as .blend, and a town of one house as .blend, .x3d and .ply.
+"""Makes a rigged figure of four ellipsoids that walks and stands, as .blend, .fbx, .dae and .obj, with a hat as .blend, its clips alone, and a town of one house as .blend, .x3d and .ply.
 
     blender --background --factory-startup --python-exit-code 1 --python figure_in_blender.py -- FOLDER
 """
@@ -85,6 +85,17 @@ def make_figure(folder):
         bpy.ops.wm.collada_export(filepath=str(folder / "figure.dae"))
 
 
+def make_clips(folder):
+    """The figure's rig without the figure, as clips are downloaded; it walks with half the swing."""
+    bpy.ops.wm.read_factory_settings(use_empty=True)
+    add_action(make_rig(), "walk", 0.3)
+    bpy.context.scene.frame_end = 25
+    bpy.ops.wm.save_as_mainfile(filepath=str(folder / "walking.blend"))
+    bpy.ops.export_scene.fbx(filepath=str(folder / "walking.fbx"), add_leaf_bones=False, bake_anim_use_all_actions=True)
+    if hasattr(bpy.ops.wm, "collada_export"):
+        bpy.ops.wm.collada_export(filepath=str(folder / "walking.dae"))
+
+
 def make_figure_with_hat(folder):
     """Its rig stands elsewhere, turned, and bows; the hat hangs on the head's bone."""
     bpy.ops.wm.open_mainfile(filepath=str(folder / "figure.blend"))
@@ -155,4 +166,5 @@ target = pathlib.Path(sys.argv[sys.argv.index("--") + 1])
 make_figure(target)
 make_figure_with_hat(target)
 make_figure_with_held_hat(target)
+make_clips(target)
 make_town(target)

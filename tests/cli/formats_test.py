@@ -62,6 +62,22 @@ class Formats(unittest.TestCase):
         listed = run("flaneur", "avatar", self.folder / "held_hat.blend", "--list")
         self.assertIn("on bone head", listed.stdout)
 
+    def test_a_rig_without_a_figure_gives_its_clips_and_is_no_person_and_no_town(self):
+        for name in ("walking.blend", "walking.fbx", "walking.dae"):
+            if not (self.folder / name).exists():
+                continue  # a Blender without Collada
+            with self.subTest(name):
+                self.assertIn(" s\n", run("flaneur", "avatar", self.folder / name, "--list").stdout.split("clips:\n")[1])
+                facts = self.folder / "levels.json"
+                result = run("flaneur", "avatar", self.folder / "figure.fbx", "--clips", self.folder / name, "-o", self.folder / "out.glb", "--json", facts)
+                self.assertEqual(result.returncode, 0, result.stderr)
+                self.assertAlmostEqual(json.loads(facts.read_text())["walk_speed_mps"], 2.06 / 2, delta=0.15)
+                for verb, missing in (("avatar", "no skin"), ("footprints", "no triangle")):
+                    refused = run("flaneur", verb, self.folder / name, "-o", self.folder / "none.glb")
+                    self.assertEqual(refused.returncode, 2)
+                    self.assertIn("error: %s: " % (self.folder / name), refused.stderr)
+                    self.assertIn(missing, refused.stderr)
+
     def test_a_figure_without_bones_is_refused(self):
         result = run("flaneur", "avatar", self.folder / "figure.obj", "-o", self.folder / "none.glb")
         self.assertEqual(result.returncode, 2)
