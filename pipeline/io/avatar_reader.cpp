@@ -565,17 +565,24 @@ Error AvatarReader::JudgeLoneWalk(const Rig& rig) {
       std::find_if(clips_.clips.begin(), clips_.clips.end(), [](const ChosenClip& c) { return c.name == "walk"; });
   if (!clips_.lone_walk || walk == clips_.clips.end()) return Ok();
   Clip clip;
-  std::string name;
+  std::string name, why;
+  Rig source = rig;
+  bool human = true;
   if (walk->file < 0) {
     const DocumentClip& own = document_.clips[walk->index];
     name = own.name;
     if (Error e = SampleClip(document_, own, avatar_->joints, joint_nodes_, to_metres_, &clip)) return e;
     DropRestPose(avatar_->joints, &clip);
   } else {
-    name = At(clips_.files, walk->file).clip_names[walk->index];
+    const MotionFile& motion = At(clips_.files, walk->file);
+    name = motion.clip_names[walk->index];
+    if (Error e = ClipOf(motion, walk->index, &clip)) return e;
+    DropRestPose(motion.skeleton.joints, &clip);
+    human = MakeRig(motion.skeleton, motion.told, &source, &why);
   }
   const bool named_otherwise = IsNoWalk(name);
-  if (Sits(rig, clip) || (!named_otherwise && (clip.keys == 0 || !KeepsLegsStill(rig, clip)))) return Ok();
+  const bool own_sits = walk->file < 0 && Sits(rig, clip);
+  if (own_sits || (!named_otherwise && (!human || !KeepsLegsStill(source, clip)))) return Ok();
   clips_ = {};
   if (Error e = ChooseClips(document_, options_, named_otherwise ? LoneClip::kNone : LoneClip::kIdle, &clips_))
     return e;
@@ -599,6 +606,7 @@ Error AvatarReader::AddClips() {
   if (human) {
     if (Error e = JudgeLoneWalk(rig)) return e;
   }
+  for (std::string& unused : UnusedFiles(options_, clips_)) notes_->push_back(std::move(unused));
   for (const ChosenClip& chosen : clips_.clips) {
     if (chosen.file < 0) {
       Clip clip;

@@ -214,16 +214,14 @@ class Chooser {
                                        [&](const ClipRequest& r) { return r.name == name && !r.file.empty(); });
     if (own_file != options_.other_clips.end()) return ChooseOther(*own_file);
     if (!given.empty()) return TakeNamed(name, given);
-    std::vector<int> files = library_;
-    files.push_back(-1);
-    for (const int file : files) {
-      const int clip = GuessClip(NamesIn(file), name);
-      if (clip < 0 || (name == "walk" && !MovesIn(file, clip))) continue;
-      Take(name, file, clip);
+    if (std::any_of(library_.begin(), library_.end(), [&](int file) { return TakeGuess(name, file); })) return Ok();
+    if (name == "walk" && lone_ == LoneClip::kWalk && TakeLone(name, library_, false)) {
+      choice_.lone_walk = true;
       return Ok();
     }
+    if (TakeGuess(name, -1)) return Ok();
     if (name == "walk") return ChooseAnyWalk();
-    if (name == "idle" && lone_ == LoneClip::kIdle && TakeLone(name)) return Ok();
+    if (name == "idle" && lone_ == LoneClip::kIdle && TakeLoneOfAny(name)) return Ok();
     if (name == "talk" && !choice_.shipped_idle) return Ok();  // talks as they stand
     int shipped = -1;
     if (Error e = OpenOnce(kShipped, &shipped)) return e;
@@ -232,24 +230,32 @@ class Chooser {
     return Ok();
   }
 
-  // The first file's that has one alone, of those whose name says nothing else before the others.
-  bool TakeLone(const std::string& name) {
-    std::vector<int> files = library_;
-    files.push_back(-1);
-    std::stable_partition(files.begin(), files.end(), [&](int file) {
-      const std::vector<std::string>& names = NamesIn(file);
-      return names.size() == 1 && !IsNoWalk(names.front());
-    });
+  bool TakeGuess(const std::string& name, int file) {
+    const int clip = GuessClip(NamesIn(file), name);
+    if (clip < 0 || (name == "walk" && !MovesIn(file, clip))) return false;
+    Take(name, file, clip);
+    return true;
+  }
+
+  // The first file's that has one alone, and one whose name says that it is something else only `whatever_its_name`.
+  bool TakeLone(const std::string& name, const std::vector<int>& files, bool whatever_its_name) {
     for (const int file : files) {
-      if (NamesIn(file).size() != 1 || !MovesIn(file, 0)) continue;
+      const std::vector<std::string>& names = NamesIn(file);
+      if (names.size() != 1 || !MovesIn(file, 0) || (!whatever_its_name && IsNoWalk(names.front()))) continue;
       Take(name, file, 0);
       return true;
     }
     return false;
   }
 
+  bool TakeLoneOfAny(const std::string& name) {
+    std::vector<int> files = library_;
+    files.push_back(-1);
+    return TakeLone(name, files, false) || TakeLone(name, files, true);
+  }
+
   Error ChooseAnyWalk() {
-    choice_.lone_walk = lone_ == LoneClip::kWalk && TakeLone("walk");
+    choice_.lone_walk = lone_ == LoneClip::kWalk && TakeLoneOfAny("walk");
     if (choice_.lone_walk) return Ok();
     choice_.missing = "the file has: " + Listed(own_) + (own_.empty() ? "" : "; name the one to walk with");
     if (const int still = GuessClip(own_, "walk"); still >= 0)
@@ -303,6 +309,20 @@ class Chooser {
 };
 
 }  // namespace
+
+std::vector<std::string> UnusedFiles(const ReadAvatarOptions& options, const ClipChoice& choice) {
+  std::vector<std::string> unused;
+  for (size_t i = 0; i < choice.files.size(); ++i) {
+    const MotionFile& file = choice.files[i];
+    const bool asked = std::any_of(options.clip_files.begin(), options.clip_files.end(),
+                                   [&](const auto& path) { return path.string() == file.path; });
+    const bool used = std::any_of(choice.clips.begin(), choice.clips.end(),
+                                  [&](const ChosenClip& clip) { return clip.file == static_cast<int>(i); });
+    if (asked && !used) unused.push_back("no clip of " + file.path + " is used (it has: " + Listed(file.clip_names) +
+                                         "); name the one that becomes walk, idle or talk");
+  }
+  return unused;
+}
 
 Error ChooseClips(const GltfDocument& document, const ReadAvatarOptions& options, LoneClip lone, ClipChoice* choice) {
   return Chooser(document, options, lone, choice).Choose();

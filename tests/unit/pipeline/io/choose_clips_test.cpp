@@ -2,7 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <fstream>
 #include <map>
+
+#include "pipeline/core/temporary_folder.h"
 
 namespace flaneur {
 namespace {
@@ -91,6 +94,37 @@ TEST(ChooseClips, ALoneClipIsWhatOneSaysItIs) {
     EXPECT_TRUE(IsNoWalk(name)) << name;
   for (const char* name : {"mixamo.com", "Take 001", "Armature|ArmatureAction", "animation_0", "Marche", ""})
     EXPECT_FALSE(IsNoWalk(name)) << name;
+}
+
+// Who gives a recording wants it walked by, though the figure has a walk; but not where it says that it is a wave.
+TEST(ChooseClips, AFilesLoneClipIsTheWalkBeforeTheFiguresOwn) {
+  GltfDocument document;
+  document.clips = {Moving("Walk"), Moving("Idle")};
+  TemporaryFolder folder;
+  ASSERT_EQ(folder.Create("choose_clips").message, "");
+  const auto given = [&](const char* name) {
+    const auto path = folder.path() / name;
+    std::ofstream(path) << "HIERARCHY\nROOT Hips\n{\nOFFSET 0 1 0\nCHANNELS 3 Zrotation Xrotation Yrotation\n"
+                           "End Site\n{\nOFFSET 0 1 0\n}\n}\nMOTION\nFrames: 2\nFrame Time: 0.5\n0 0 0\n0 30 0\n";
+    ReadAvatarOptions options;
+    options.clip_files = {path};
+    return options;
+  };
+  const auto walk_of = [&](const ReadAvatarOptions& options, LoneClip lone, std::vector<std::string>* unused) {
+    ClipChoice choice;
+    EXPECT_EQ(ChooseClips(document, options, lone, &choice).message, "");
+    *unused = UnusedFiles(options, choice);
+    return choice.clips.at(0).file;
+  };
+  std::vector<std::string> unused;
+  EXPECT_EQ(walk_of(given("take_01.bvh"), LoneClip::kWalk, &unused), 0);
+  EXPECT_TRUE(unused.empty());
+  EXPECT_EQ(walk_of(given("take_01.bvh"), LoneClip::kIdle, &unused), -1) << "its legs keep still";
+  ASSERT_EQ(unused.size(), 1u) << "and the figure stands by its own";
+  EXPECT_NE(unused.front().find("take_01.bvh"), std::string::npos);
+  EXPECT_EQ(walk_of(given("waving.bvh"), LoneClip::kWalk, &unused), -1);
+  EXPECT_EQ(unused.size(), 1u);
+  EXPECT_EQ(walk_of(given("walking.bvh"), LoneClip::kWalk, &unused), 0);
 }
 
 }  // namespace
