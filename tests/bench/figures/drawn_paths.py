@@ -22,6 +22,7 @@ class Town:
         ground = tour["ground"]
         self.ground = [(low, low + cells * ground["cell_m"])
                        for low, cells in zip(ground["min_m"], (ground["columns"], ground["rows"]))]
+        self.cell_m, self.columns, self.kinds = ground["cell_m"], ground["columns"], ground["kinds"]
         doors = [p["position_m"] for p in tour["places"] if p["kind"] in ("door", "exit")]
         loiter = [p["position_m"] for p in tour["places"] if p["kind"] == "loiter"]
         spots = [h["position_m"] for h in tour.get("hotspots", [])]
@@ -33,7 +34,19 @@ class Town:
 
     def is_free(self, a, b, clearance_m=CLEARANCE_M):
         on_ground = all(low + clearance_m < v < high - clearance_m for p in (a, b) for v, (low, high) in zip(p, self.ground))
-        return on_ground and is_free(a, b, self.obstacles, clearance_m)
+        return on_ground and self.has_ground(a, b, clearance_m) and is_free(a, b, self.obstacles, clearance_m)
+
+    def has_ground(self, a, b, clearance_m):
+        """Whether there is something to walk on all the way, in the middle and that far to both sides: no water, no hole."""
+        length_m = math.dist(a, b) or 1
+        aside = ((a[1] - b[1]) / length_m * clearance_m, (b[0] - a[0]) / length_m * clearance_m)
+        steps = math.ceil(length_m / self.cell_m)
+        return all(self.kind_at(a[0] + (b[0] - a[0]) * k / steps + side * aside[0], a[1] + (b[1] - a[1]) * k / steps + side * aside[1])
+                   for k in range(steps + 1) for side in (0, -1, 1))
+
+    def kind_at(self, x, y):
+        column, row = (int((v - low) / self.cell_m) for v, (low, _) in zip((x, y), self.ground))
+        return self.kinds[row * self.columns + column]
 
     def near(self, dice, places, most_m=6):
         """A free place by one of these."""

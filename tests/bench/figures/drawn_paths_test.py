@@ -9,7 +9,8 @@ from figures import drawn_paths  # noqa: E402
 
 HOUSE = {"name": "house", "kind": "building", "outer_m": [[-12, 4], [-4, 4], [-4, 12], [-12, 12]]}
 WELL = {"name": "well", "kind": "well", "center_m": [0, 0], "radius_m": 1.0}
-TOUR = {"ground": {"min_m": [-20, -20], "cell_m": 0.5, "columns": 80, "rows": 70}, "obstacles": [HOUSE, WELL], "path": [{"position_m": [-10, -10]}, {"position_m": [15, 2]}],
+GROUND = {"min_m": [-20, -20], "cell_m": 0.5, "columns": 80, "rows": 70, "kinds": b"\1" * 80 * 70}
+TOUR = {"ground": GROUND, "obstacles": [HOUSE, WELL], "path": [{"position_m": [-10, -10]}, {"position_m": [15, 2]}],
         "places": [{"kind": "loiter", "position_m": [0, 2]}, {"kind": "door", "position_m": [-8, 4]}]}
 
 
@@ -39,6 +40,16 @@ class DrawnPaths(unittest.TestCase):
                 places = [scenario["camera"]["position_m"]] + [leg["walk_to_m"] for leg in scenario["camera"]["leg"] if "walk_to_m" in leg]
                 places += [goal for person in scenario.get("person", []) for goal in person["goals_m"]]
                 self.assertEqual([p for p in places if not (-20 < p[0] < 20 and -20 < p[1] < 15)], [])
+
+    def test_nobody_walks_into_the_water(self):
+        canal = bytearray(GROUND["kinds"])
+        for row in range(70):
+            canal[row * 80 + 60:row * 80 + 64] = bytes(4)  # 10 to 12 m east
+        for name, text in drawn_paths.drawn({**TOUR, "ground": {**GROUND, "kinds": bytes(canal)}}, 4 * len(drawn_paths.KINDS), 11):
+            with self.subTest(name):
+                scenario = tomllib.loads(text)
+                way = [scenario["camera"]["position_m"]] + [leg["walk_to_m"] for leg in scenario["camera"]["leg"] if "walk_to_m" in leg]
+                self.assertIn({x < 10 for x, _ in way}, ({True}, {False}), "over the canal")
 
     def test_the_seed_alone_decides(self):
         self.assertEqual(drawn_paths.drawn(TOUR, 12, 3), drawn_paths.drawn(TOUR, 12, 3))

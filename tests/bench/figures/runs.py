@@ -21,9 +21,14 @@ class Failed(Exception):
 
 
 def read_tour(path):
-    """A pack's description of its tour."""
+    """A pack's description of its tour, with the `kinds` of its ground's cells: bytes, row by row from the south."""
     try:
-        return split_glb(path)[0]["extensions"]["FLANEUR_tour"]
+        document, binary = split_glb(path)
+        tour = document["extensions"]["FLANEUR_tour"]
+        view = document["bufferViews"][tour["ground"]["kind_view"]]
+        begin = view.get("byteOffset", 0)
+        tour["ground"]["kinds"] = binary[begin:begin + view["byteLength"]]
+        return tour
     except OSError as error:
         raise Failed(f"{path}: {error.strerror.lower()}") from error
     except (ValueError, KeyError, IndexError, AttributeError) as error:
