@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cstdio>
 #include <map>
-#include <utility>
 
 #include "pipeline/core/listed.h"
 #include "pipeline/footprint/constants.h"
@@ -61,13 +60,31 @@ double Buried_m2(const LocalGround& ground, const TownObject& object, const Shap
   return below.empty() ? 0 : Area(Difference(InPlan(below), shape.solid));
 }
 
-// Instances of one thing have one name, and the same happens to them: said once, with how often.
-void AddOnce(const std::vector<std::string>& said, std::vector<std::string>* warnings) {
+// What happens to an object, and its name with what concerns it alone.
+struct Loss {
+  std::string one, several;  // "leaves nothing", "leave nothing"
+  std::string object;
+};
+
+// One line for all to whom the same happens. Instances of one thing have one name: said once, with how often.
+void AddTogether(const std::vector<Loss>& losses, std::vector<std::string>* warnings) {
+  std::vector<std::string> lines;
+  std::map<std::string, std::vector<std::string>> objects;
   std::map<std::string, int> times;
-  for (const std::string& each : said) ++times[each];
-  for (const std::string& each : said) {
-    const int n = std::exchange(times[each], 0);
-    if (n > 0) warnings->push_back(n == 1 ? each : each + " (" + std::to_string(n) + " times)");
+  for (const Loss& loss : losses) {
+    if (++times[loss.several + loss.object] > 1) continue;
+    if (objects[loss.several].empty()) lines.push_back(loss.several);
+    objects[loss.several].push_back(loss.object);
+  }
+  for (const std::string& several : lines) {
+    std::vector<std::string>& own = objects[several];
+    for (std::string& object : own) {
+      if (const int n = times[several + object]; n > 1) object += " (" + std::to_string(n) + " times)";
+    }
+    const auto loss = std::find_if(losses.begin(), losses.end(), [&](const Loss& l) { return l.several == several; });
+    warnings->push_back(own.size() == 1 ? own.front() + " " + loss->one
+                                        : std::to_string(own.size()) + " objects " + several + ": " +
+                                              Listed(own, own.size()));
   }
 }
 
@@ -78,29 +95,39 @@ void WarnOfLeftOut(const Site& site, const TownObjects& town, const std::vector<
                    std::vector<std::string>* warnings) {
   WarnOfFlat(town.flat, warnings);
   WarnOfUntold(town.untold, warnings);
-  std::vector<std::string> said;
+  const std::string band =
+      "part between " + Number(site.options.band_m[0]) + " and " + Number(site.options.band_m[1]) + " m over the ground";
+  std::vector<Loss> losses;
   for (size_t i = 0; i < town.obstacles.size(); ++i) {
     const TownObject& object = town.obstacles[i];
     const Shape& shape = shapes[i];
+    const std::string name = "'" + object.name + "'";
     const double buried_m2 =
         site.ground && object.kind == ObstacleKind::kBuilding ? Buried_m2(*site.ground, object, shape) : 0;
     if (has_obstacle[i]) {
       if (buried_m2 > kMinBuried_m2)
-        said.push_back("'" + object.name + "': parts over " + Number(buried_m2) +
-                       " m2 lie beneath the town's terrain and were left out");
+        losses.push_back({"has parts beneath the town's terrain, which were left out",
+                          "have parts beneath the town's terrain, which were left out",
+                          name + " (" + Number(buried_m2) + " m2)"});
     } else if (IsRound(object) || (shape.lines == 0 && shape.solid.empty())) {
-      said.push_back("'" + object.name + "' leaves nothing in the way: it has no part between " +
-                     Number(site.options.band_m[0]) + " and " + Number(site.options.band_m[1]) + " m over the ground" +
-                     (buried_m2 > 0 ? "; it lies beneath the town's terrain" : ""));
+      losses.push_back(
+          buried_m2 > 0
+              ? Loss{"leaves nothing in the way: it has no " + band + "; it lies beneath the town's terrain",
+                     "leave nothing in the way, with no " + band + ", as they lie beneath the town's terrain", name}
+              : Loss{"leaves nothing in the way: it has no " + band, "leave nothing in the way, with no " + band, name});
     } else if (object.is_bridge) {
-      said.push_back("'" + object.name + "' leaves nothing in the way: it is a bridge, and is walked over");
+      losses.push_back({"leaves nothing in the way: it is a bridge, and is walked over",
+                        "leave nothing in the way: they are bridges, and are walked over", name});
     } else if (!site.options.merge_blocks) {
       const TownObject* taker = Taker(town, shapes, outlines, i);
-      said.push_back("'" + object.name + "' (" + Number(Area(shape.solid)) + " m2) has no obstacle of its own: " +
-                     (taker ? "it stands within '" + taker->name + "'" : "what is left of it is too small"));
+      const std::string own = name + " (" + Number(Area(shape.solid)) + " m2)", lacks = " no obstacle of ";
+      losses.push_back(taker ? Loss{"has" + lacks + "its own: it stands within '" + taker->name + "'",
+                                    "have" + lacks + "their own, as they stand within '" + taker->name + "'", own}
+                             : Loss{"has" + lacks + "its own: what is left of it is too small",
+                                    "have" + lacks + "their own, as what is left of them is too small", own});
     }
   }
-  AddOnce(said, warnings);
+  AddTogether(losses, warnings);
 }
 
 }  // namespace flaneur

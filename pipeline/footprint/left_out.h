@@ -8,7 +8,7 @@
 
 namespace flaneur {
 
-// One line for each object that has no obstacle or only a part of one, with the reason; flat things in one line.
+// Names each object that has no obstacle or only a part of one, one line a reason; flat things in one line too.
 void WarnOfLeftOut(const Site& site, const TownObjects& town, const std::vector<Shape>& shapes,
                    const std::vector<Rings>& outlines, const std::vector<bool>& has_obstacle,
                    std::vector<std::string>* warnings);

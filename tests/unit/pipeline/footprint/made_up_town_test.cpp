@@ -164,8 +164,20 @@ TEST(LeftOut, PartsBeneathTheTerrainAreNamed) {
   town.Node("house", NodeKind::kBuilding).Box({5, 5, -0.3f}, {12, 12, 6}).Box({12, 5, -3}, {16, 12, -0.5f});
   town.Node("cellar", NodeKind::kBuilding).Box({20, 5, -3}, {26, 12, -0.5f});
   const std::vector<std::string> warnings = WarningsOf(town);
-  EXPECT_EQ(CountNaming(warnings, "'house': parts over 28 m2 lie beneath"), 1);
+  EXPECT_EQ(CountNaming(warnings, "'house' (28 m2) has parts beneath"), 1);
   EXPECT_EQ(CountNaming(warnings, "'cellar' leaves nothing in the way"), 1);
+}
+
+TEST(LeftOut, ThoseToWhomTheSameHappensStandInOneLine) {
+  TestTown town;
+  town.Ground();
+  town.Node("house", NodeKind::kBuilding).Box({5, 5, 0}, {12, 12, 6});
+  for (const char* name : {"sign", "awning", "sign", "banner"})
+    town.Node(name, NodeKind::kOther).Box({20, 5, 3}, {21, 5.1f, 3.5f});
+  const std::vector<std::string> warnings = WarningsOf(town);
+  EXPECT_EQ(CountNaming(warnings, "3 objects leave nothing in the way"), 1);
+  EXPECT_EQ(CountNaming(warnings, "'sign' (2 times), 'awning', 'banner'"), 1);
+  EXPECT_EQ(warnings.size(), 1u);
 }
 
 // ---- Bridges ----
