@@ -16,6 +16,7 @@
 #include "pipeline/io/join_documents.h"
 #include "pipeline/io/motion_reader.h"
 #include "pipeline/rig/clip_loop.h"
+#include "pipeline/rig/clip_rig.h"
 #include "pipeline/rig/copy_clip.h"
 #include "pipeline/rig/face.h"
 #include "pipeline/rig/motion_quality.h"
@@ -536,7 +537,7 @@ Error AvatarReader::FitClip(const ChosenClip& chosen, const Rig* rig, const std:
   if (same && walks) PlantWalk(*rig, &made);
   // Larger boots on the same bones may slide whatever is done to the clip as it is.
   const bool slides = same && walks && BendsKnees(*rig) && SlideOfWalk(*rig, made.clip) > kMostSlide;
-  if ((!same || slides) && rig != nullptr && MakeRig(motion.skeleton, motion.told, &source, &source_why)) {
+  if ((!same || slides) && rig != nullptr && MakeClipRig(motion.skeleton, motion.told, clip, &source, &source_why)) {
     made = chosen.name == "walk" ? ClearLegs(*avatar_, source, clip, *rig) : Retarget(source, clip, *rig);
     if (chosen.name == "walk") walk_speed_ = made.walk_speed_mps;
     const bool led = chosen.name == "walk" || chosen.name == "idle" || chosen.name == "talk";
@@ -578,7 +579,7 @@ Error AvatarReader::JudgeLoneWalk(const Rig& rig) {
     name = motion.clip_names[walk->index];
     if (Error e = ClipOf(motion, walk->index, &clip)) return e;
     DropRestPose(motion.skeleton.joints, &clip);
-    human = MakeRig(motion.skeleton, motion.told, &source, &why);
+    human = MakeClipRig(motion.skeleton, motion.told, clip, &source, &why);
   }
   const bool named_otherwise = IsNoWalk(name);
   const bool own_sits = walk->file < 0 && Sits(rig, clip);

@@ -258,8 +258,12 @@ class Chooser {
     choice_.lone_walk = lone_ == LoneClip::kWalk && TakeLoneOfAny("walk");
     if (choice_.lone_walk) return Ok();
     choice_.missing = "the file has: " + Listed(own_) + (own_.empty() ? "" : "; name the one to walk with");
-    if (const int still = GuessClip(own_, "walk"); still >= 0)
-      choice_.missing = Quoted(At(own_, still)) + " moves nothing";
+    std::vector<int> files = library_;
+    files.push_back(-1);
+    for (const int file : files) {
+      if (const int still = GuessClip(NamesIn(file), "walk"); still >= 0)
+        choice_.missing = Quoted(At(NamesIn(file), still)) + " moves nothing";
+    }
     int shipped = -1;
     if (Error e = OpenOnce(kShipped, &shipped)) return Fail("no walk clip; " + choice_.missing + "; " + e.message);
     choice_.shipped_walk = true;

@@ -1,0 +1,16 @@
+// The skeleton of a file that was made for its clips.
+#pragma once
+#include <string>
+#include <vector>
+
+#include "pipeline/rig/rig.h"
+
+namespace flaneur {
+
+// As MakeRig, of a skeleton without a figure. What it rests in may be any pose: FBX files without a skin rest in the
+// moment they were saved at, recordings with all bones along one axis. Where the legs don't hang alike at rest, `clip` says
+// how they stand: each leg as it is in the key where it hangs straightest, the rest as in the key that looks ahead most.
+bool MakeClipRig(const Avatar& skeleton, const std::vector<NamedBone>& told, const Clip& clip, Rig* rig,
+                 std::string* why);
+
+}  // namespace flaneur
