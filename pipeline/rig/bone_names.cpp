@@ -52,6 +52,8 @@ constexpr std::array kWords = {
     Word{"knee", BodyPart::kLowerLeg},      Word{"foot", BodyPart::kFoot},
     Word{"ankle", BodyPart::kFoot},         Word{"toe", BodyPart::kToes},
     Word{"toes", BodyPart::kToes},          Word{"ball", BodyPart::kToes},
+    Word{"toebase", BodyPart::kToes},       Word{"uarm", BodyPart::kUpperArm},
+    Word{"farm", BodyPart::kLowerArm},
 };
 
 // The parts of a finger's name, with or without the hand's.
@@ -80,10 +82,11 @@ constexpr std::array kIdeographs = {
 constexpr std::array<std::string_view, 6> kIdeographsOfNoBody = {"ＩＫ", "IK", "捩", "先", "親", "指"};
 
 // Whose rig it is, and what says nothing about where.
-constexpr std::array<std::string_view, 24> kIdle = {"mixamorig", "bip",      "biped",     "valve",  "def",  "deform",
+constexpr std::array<std::string_view, 25> kIdle = {"mixamorig", "bip",      "biped",     "valve",  "def",  "deform",
                                                     "bn",        "bone",     "jnt",       "joint",  "jt",   "cc",
                                                     "base",      "j",        "b",         "sk",     "c",    "rig",
-                                                    "armature",  "skeleton", "character", "center", "gltf", "bind"};
+                                                    "armature",  "skeleton", "character", "center", "gltf", "bind",
+                                                    "m"};
 
 bool IsIdle(const Token& token) { return std::find(kIdle.begin(), kIdle.end(), token) != kIdle.end(); }
 
@@ -166,7 +169,13 @@ bool IsAscii(const std::string& name) {
   return std::all_of(name.begin(), name.end(), [](char c) { return static_cast<unsigned char>(c) < 128; });
 }
 
-// Where side and part stand in one word of small letters: "leftarm", "rshoulder", "handl".
+// "foot", and "handthumb".
+BodyPart PartOrFingerOf(const std::string& word) {
+  const BodyPart part = PartOf(word);
+  return part == BodyPart::kNone && word.starts_with("hand") ? FingerOf({word.substr(4)}) : part;
+}
+
+// Where side and part stand in one word of small letters or of capitals: "leftarm", "rshoulder", "handl".
 BoneName ReadJoined(const std::string& word) {
   static constexpr std::array<std::pair<std::string_view, BodySide>, 4> kSides = {
       std::pair{std::string_view("left"), BodySide::kLeft}, std::pair{std::string_view("right"), BodySide::kRight},
@@ -174,10 +183,11 @@ BoneName ReadJoined(const std::string& word) {
   for (const auto& [text, side] : kSides) {
     if (word.size() <= text.size() + 2) continue;
     if (word.starts_with(text)) {
-      if (const BodyPart part = PartOf(word.substr(text.size())); part != BodyPart::kNone) return {part, side, -1};
+      const BodyPart part = PartOrFingerOf(word.substr(text.size()));
+      if (part != BodyPart::kNone) return {part, side, -1};
     }
     if (word.ends_with(text)) {
-      const BodyPart part = PartOf(word.substr(0, word.size() - text.size()));
+      const BodyPart part = PartOrFingerOf(word.substr(0, word.size() - text.size()));
       if (part != BodyPart::kNone) return {part, side, -1};
     }
   }

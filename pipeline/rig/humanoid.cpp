@@ -83,6 +83,18 @@ class NameReader {
     return below >= 0 ? below : Find(part, side);
   }
 
+  // The one joint on it that others hang on: whatever it is called, it bends what it is on. -1: none, or several.
+  int OnlyBoneOn(int joint) const {
+    int only = -1;
+    for (const Joint& end : joints_) {
+      const int bone = end.parent;
+      if (bone < 0 || At(joints_, bone).parent != joint || bone == only) continue;
+      if (only >= 0) return -1;
+      only = bone;
+    }
+    return only;
+  }
+
   HumanoidLeg Leg(BodySide side) const {
     HumanoidLeg leg;
     leg.upper = Find(BodyPart::kUpperLeg, side);
@@ -96,6 +108,8 @@ class NameReader {
     if (leg.lower >= 0 && !IsBelow(joints_, leg.lower, leg.upper)) leg.lower = -1;
     leg.foot = FindBelow(BodyPart::kFoot, side, leg.lower);
     leg.toes = FindBelow(BodyPart::kToes, side, leg.foot);
+    if (leg.foot >= 0 && leg.toes < 0) leg.toes = Find(BodyPart::kFoot, side, leg.foot);  // below an ankle
+    if (leg.foot >= 0 && leg.toes < 0) leg.toes = OnlyBoneOn(leg.foot);
     if (leg.foot >= 0 && leg.toes >= 0 && !IsBelow(joints_, leg.toes, leg.foot)) leg.toes = -1;
     if (leg.lower < 0) leg.toes = leg.foot = -1;
     return leg;
