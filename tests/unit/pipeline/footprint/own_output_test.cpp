@@ -75,6 +75,7 @@ class Mixture {
     for (int k = 3 + dice_.Below(14); k > 0; --k) AddThing();
   }
   TestTown town;
+  std::map<std::string, Ring> plans;  // of whole houses, by name
   FootprintOptions Options() {
     FootprintOptions options;
     if (dice_.Chance(0.3f)) options.clearance_m = 0;
@@ -106,6 +107,18 @@ class Mixture {
 
   TestTown& Node(const char* kind, NodeKind node) { return town.Node(kind + std::to_string(count_++), node); }
 
+  // Of a house whose walls reach the ground all round, and whose roof nobody touches.
+  void AddPlan(const Place& p, float width, float depth, float low, float high) {
+    const float cosine = std::cos(p.turn_rad), sine = std::sin(p.turn_rad), u = width / 2, v = depth / 2;
+    Ring plan;
+    for (const auto& [a, b] : {std::pair{-u, -v}, {u, -v}, {u, v}, {-u, v}}) {
+      const float x = p.x + cosine * a - sine * b, y = p.y + sine * a + cosine * b, ground_m = Height(x, y) - p.ground_m;
+      if (ground_m < low || ground_m > high - 2.3f) return;
+      plan.push_back({x, y});
+    }
+    plans["house" + std::to_string(count_ - 1)] = plan;
+  }
+
   // Four walls with a flat roof; `without`: a wall that is missing.
   void Block(const Place& p, float width, float depth, float low, float high, float overhang = 0, int without = -1) {
     const float cosine = std::cos(p.turn_rad), sine = std::sin(p.turn_rad);
@@ -134,7 +147,9 @@ class Mixture {
   void AddThing() {
     Place p{dice_.Any(6, 54), dice_.Any(6, 54), dice_.Chance(0.5f) ? 0 : dice_.Any(0, 3), 0};
     p.ground_m = Height(p.x, p.y);
-    const float width = dice_.Any(4, 12), depth = dice_.Any(4, 10), reach_m = std::hypot(width, depth) / 2 + 0.8f;
+    const float width = dice_.Any(4, 12);
+    float depth = dice_.Any(4, 10), high = 0;
+    const float reach_m = std::hypot(width, depth) / 2 + 0.8f;
     switch (dice_.Below(10)) {
       case 0:
         if (Takes(p, reach_m)) AddArcade(p, width, depth);
@@ -167,15 +182,22 @@ class Mixture {
         if (!Takes(p, reach_m + width)) break;
         Node("house", NodeKind::kBuilding);
         Block(p, width, depth, -1, 5);
+        AddPlan(p, width, depth, -1, 5);
         p.x += std::cos(p.turn_rad) * width, p.y += std::sin(p.turn_rad) * width;  // and its neighbour
         Node("house", NodeKind::kBuilding);
-        Block(p, width, depth * dice_.Any(0.5f, 1.2f), -1, dice_.Any(3, 7));
+        depth *= dice_.Any(0.5f, 1.2f);
+        high = dice_.Any(3, 7);
+        Block(p, width, depth, -1, high);
+        AddPlan(p, width, depth, -1, high);
         break;
       default:
         if (!Takes(p, reach_m)) break;
         Node("house", dice_.Chance(0.7f) ? NodeKind::kBuilding : NodeKind::kOther);
-        Block(p, width, depth, -dice_.Any(0, 2.5f), dice_.Any(2.5f, 9), dice_.Any(0, 0.8f),
-              dice_.Chance(0.2f) ? dice_.Below(4) : -1);
+        const float low = -dice_.Any(0, 2.5f), overhang = dice_.Any(0, 0.8f);
+        high = dice_.Any(2.5f, 9);
+        const int without = dice_.Chance(0.2f) ? dice_.Below(4) : -1;
+        Block(p, width, depth, low, high, overhang, without);
+        if (without < 0) AddPlan(p, width, depth, low, high);
     }
   }
 
@@ -223,6 +245,30 @@ TEST(OwnOutput, IsRightInMixturesOfEverything) {
     Footprints footprints;
     ASSERT_EQ(ExtractFootprints(mixture.town.scene, mixture.Options(), &footprints).message, "");
     ExpectNoOwnFault(mixture.town.scene, footprints, seed);
+  }
+}
+
+TEST(OwnOutput, IsWhereHousesStand) {
+  for (unsigned seed = 1; seed <= Towns(100); ++seed) {
+    Mixture mixture(seed);
+    const FootprintOptions options = mixture.Options();
+    Footprints footprints;
+    ASSERT_EQ(ExtractFootprints(mixture.town.scene, options, &footprints).message, "");
+    for (const auto& [name, plan] : mixture.plans) {
+      Rings made;
+      for (const Obstacle& o : footprints.obstacles) {
+        if (o.source != name) continue;
+        Rings own{o.outer};
+        own.insert(own.end(), o.holes.begin(), o.holes.end());
+        made = Union(made, own);
+      }
+      Rings neighbours;
+      for (const auto& [other, its_plan] : mixture.plans)
+        if (other != name) neighbours.push_back(its_plan);
+      const Rings wanted = Difference(Offset({plan}, options.clearance_m), neighbours);
+      const double both = Area(Intersection(made, wanted)), either = Area(made) + Area(wanted) - both;
+      EXPECT_GT(both / either, 0.95) << "seed " << seed << ": " << name << ", " << Area(made) << " of " << Area(wanted);
+    }
   }
 }
 
