@@ -112,7 +112,8 @@ class Mixture {
     const float cosine = std::cos(p.turn_rad), sine = std::sin(p.turn_rad), u = width / 2, v = depth / 2;
     Ring plan;
     for (const auto& [a, b] : {std::pair{-u, -v}, {u, -v}, {u, v}, {-u, v}}) {
-      const float x = p.x + cosine * a - sine * b, y = p.y + sine * a + cosine * b, ground_m = Height(x, y) - p.ground_m;
+      const float x = p.x + cosine * a - sine * b, y = p.y + sine * a + cosine * b,
+                  ground_m = Height(x, y) - p.ground_m;
       if (ground_m < low || ground_m > high - 2.3f) return;
       plan.push_back({x, y});
     }
