@@ -750,6 +750,7 @@ Error ReadAvatar(const std::filesystem::path& path, const ReadAvatarOptions& opt
     if (Error e = LoadPerson(file, &part, warnings)) return e;
     if (Error e = JoinDocuments(std::move(part), &document)) return e;
   }
+  JoinTwins(&document);
   *avatar = {};
   avatar->name = options.name.empty() ? path.stem().string() : options.name;
   std::vector<std::string> notes;

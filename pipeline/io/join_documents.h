@@ -9,4 +9,9 @@ namespace flaneur {
 // braids) come along on them. Its clips are left. Errors: most of its bones have no counterpart; names the file.
 Error JoinDocuments(GltfDocument part, GltfDocument* whole);
 
+// Puts skeletons together that stand in one another, as pieces of an outfit bring each its own: what is bound to one of
+// them goes with the bones of the same names of the one that clips move most, or that has the most. Bones that it lacks
+// come along on them.
+void JoinTwins(GltfDocument* document);
+
 }  // namespace flaneur
