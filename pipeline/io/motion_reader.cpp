@@ -43,6 +43,46 @@ std::vector<bool> Bones(const GltfDocument& document) {
   return bones;
 }
 
+// The joint that a vertex hangs on most; -1: none.
+int HeaviestJoint(const Influences& influences, size_t vertex) {
+  const size_t width = static_cast<size_t>(influences.per_vertex), first = vertex * width;
+  size_t heaviest = first;
+  for (size_t i = first; i < first + width; ++i)
+    if (influences.weights[i] > influences.weights[heaviest]) heaviest = i;
+  return width > 0 && influences.weights[heaviest] > 0 ? influences.joints[heaviest] : -1;
+}
+
+// The vertices of what the file shows, as the skeleton rests, each on one joint: where soles and the ends of limbs are.
+void TakeFigure(const std::vector<int>& joint_of, const std::vector<Mat4>& rest, MotionFile* motion) {
+  const GltfDocument& document = motion->document;
+  if (motion->joint_nodes.size() > UINT16_MAX) return;
+  for (const int n : document.order) {
+    const DocumentNode& node = At(document.nodes, n);
+    if (!node.in_scene || node.mesh < 0) continue;
+    int bone = n;  // that a thing without a skin hangs on
+    while (bone >= 0 && At(joint_of, bone) < 0) bone = At(document.nodes, bone).parent;
+    for (const DocumentPrimitive& primitive : At(document.meshes, node.mesh).primitives) {
+      Mesh figure;
+      for (size_t v = 0; v < primitive.mesh.positions.size(); ++v) {
+        int on = bone;
+        Mat4 place = At(rest, n);
+        if (node.skin >= 0) {
+          const DocumentSkin& skin = At(document.skins, node.skin);
+          const int k = HeaviestJoint(primitive.influences, v);
+          if (k < 0) continue;
+          on = At(skin.joints, k);
+          place = At(rest, on) * At(skin.inverse_binds, k);
+        }
+        if (on < 0 || At(joint_of, on) < 0) continue;
+        figure.positions.push_back(TransformPoint(place, primitive.mesh.positions[v]));
+        figure.joints.push_back({static_cast<uint16_t>(At(joint_of, on)), 0, 0, 0});
+        figure.weights.push_back({1, 0, 0, 0});
+      }
+      motion->skeleton.meshes.push_back(std::move(figure));
+    }
+  }
+}
+
 void TakeSkeleton(MotionFile* motion) {
   const GltfDocument& document = motion->document;
   const std::vector<bool> bones = Bones(document);
@@ -68,6 +108,7 @@ void TakeSkeleton(MotionFile* motion) {
     const int joint = At(joint_of, bone.node);
     if (joint >= 0) motion->told.push_back({joint, bone.part, bone.side});
   }
+  TakeFigure(joint_of, rest, motion);
 }
 
 Error Open(const fs::path& path, MotionFile* motion) {

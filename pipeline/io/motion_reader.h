@@ -15,7 +15,7 @@ inline constexpr float kLongestClip_s = 60;  // of longer recordings only so muc
 
 struct MotionFile {
   std::string path;
-  Avatar skeleton;                      // no meshes; clips only those of a BVH file, which has one
+  Avatar skeleton;                      // clips only those of a BVH file, which has one; meshes without triangles
   std::vector<NamedBone> told;          // by the file itself
   std::vector<std::string> clip_names;  // where the file holds one clip alone, the file's name stands before its own
   GltfDocument document;
@@ -23,7 +23,7 @@ struct MotionFile {
   std::vector<Mat4> unscale;  // a joint: removes the scale that its node has at rest, and mirroring
 };
 
-// Opens glTF (VRM and VRMA too), BVH, and by Blender .fbx, .blend and .dae; meshes don't matter. Errors: as for
+// Opens glTF (VRM and VRMA too), BVH, and by Blender .fbx, .blend and .dae; a figure may be missing. Errors: as for
 // ReadGltfScene, a BVH file that is none (names the line), no clip.
 Error OpenMotion(const std::filesystem::path& path, MotionFile* motion);
 

@@ -20,10 +20,9 @@ float Hang(const Humanoid& h, const Pose& pose, size_t side) {
   Vec3 up, forward;
   if (end < 0 || !FindStance(h, pose.positions, &up, &forward)) return 1;
   const Vec3 along = At(pose.positions, end) - At(pose.positions, leg.upper);
-  const float length_m =
-      leg.foot < 0 ? Length(along)
-                   : Length(At(pose.positions, leg.lower) - At(pose.positions, leg.upper)) +
-                         Length(At(pose.positions, leg.foot) - At(pose.positions, leg.lower));
+  const float length_m = leg.foot < 0 ? Length(along)
+                                      : Length(At(pose.positions, leg.lower) - At(pose.positions, leg.upper)) +
+                                            Length(At(pose.positions, leg.foot) - At(pose.positions, leg.lower));
   return length_m > 0 ? -Dot(along, up) / length_m : 1;
 }
 
@@ -95,18 +94,27 @@ float Unlike(const Humanoid& h, const Pose& pose) {
 
 bool Stands(const Humanoid& h, const Pose& pose) { return Hang(h, pose) > kHangs && Unlike(h, pose) < kAlike; }
 
+bool HasArmsOfOneBone(const Humanoid& h) {
+  return h.has_arms() && std::all_of(h.arms.begin(), h.arms.end(),
+                                     [](const HumanoidArm& arm) { return arm.lower < 0 && arm.hand < 0; });
+}
+
 }  // namespace
 
 bool MakeClipRig(const Avatar& skeleton, const std::vector<NamedBone>& told, const Clip& clip, Rig* rig,
                  std::string* why) {
   Humanoid h;
+  Avatar bones;
+  bones.joints = skeleton.joints;
   const Pose rest = BindPose(skeleton.joints);
   const bool known = FindHumanoid(skeleton.joints, rest.positions, told, &h, why) && !h.quadruped && h.has_legs();
-  if (!known || clip.keys == 0 || Stands(h, rest)) return MakeRig(skeleton, told, rig, why);
-  Avatar standing = skeleton;
-  StandAtRest(h, clip, &standing.joints);
-  const bool better = Hang(h, BindPose(standing.joints)) > Hang(h, rest);
-  return MakeRig(better ? standing : skeleton, told, rig, why);
+  if (known && clip.keys > 0 && !Stands(h, rest)) {
+    StandAtRest(h, clip, &bones.joints);
+    if (Hang(h, BindPose(bones.joints)) > Hang(h, rest)) return MakeRig(bones, told, rig, why);
+    bones.joints = skeleton.joints;
+  }
+  if (known && HasArmsOfOneBone(h)) bones.meshes = skeleton.meshes;
+  return MakeRig(bones, told, rig, why);
 }
 
 }  // namespace flaneur

@@ -14,6 +14,7 @@
 #include "pipeline/io/gltf.h"
 #include "pipeline/io/motion_reader.h"
 #include "pipeline/rig/clip_loop.h"
+#include "pipeline/rig/clip_rig.h"
 #include "pipeline/rig/motion_quality.h"
 #include "pipeline/rig/retarget.h"
 
@@ -99,7 +100,7 @@ bool OpenWalk(const File& file, const std::string& clip, Walk* walk) {
   MotionFile motion;
   Rig rig;
   std::string why;
-  if (OpenMotion(file.path, &motion) || !MakeRig(motion.skeleton, motion.told, &rig, &why)) return false;
+  if (OpenMotion(file.path, &motion)) return false;
   size_t found = motion.clip_names.size();
   for (size_t i = 0; i < motion.clip_names.size(); ++i) {
     std::string name = motion.clip_names[i];
@@ -111,6 +112,7 @@ bool OpenWalk(const File& file, const std::string& clip, Walk* walk) {
   Clip made;
   if (found == motion.clip_names.size() || ClipOf(motion, found, &made)) return false;
   CutToCycle(motion.skeleton.joints, &made);
+  if (!MakeClipRig(motion.skeleton, motion.told, made, &rig, &why)) return false;
   *walk = {clip.empty() ? file.name : clip, motion.clip_names[found], file.path};
   walk->hips = HipsHeight(rig, made);
   return true;

@@ -76,5 +76,17 @@ TEST(ClipRig, ASkeletonThatStandsRestsAsItDoes) {
     EXPECT_LT(Length(plain.reference.positions[j] - source.reference.positions[j]), 1e-6f);
 }
 
+// Its one joint says nothing of where it points; what hangs on it does.
+TEST(ClipRig, AnArmOfOneBonePointsWhereTheFiguresDoes) {
+  HumanShape shape{.arm_down_deg = 30};
+  for (const size_t j : {size_t{5}, size_t{6}, size_t{8}, size_t{9}}) shape.names[j] = "ornament";
+  const Avatar human = MadeHuman(shape);
+  Rig rig;
+  std::string why;
+  ASSERT_TRUE(MakeClipRig(human, {}, MadeWalk(human), &rig, &why)) << why;
+  const Vec3 along = Rotated(rig.arms[kLeft].upper, {1, 0, 0});
+  EXPECT_LT(AngleBetween(along, {std::cos(kPi / 6), -std::sin(kPi / 6), 0}), 0.05f);
+}
+
 }  // namespace
 }  // namespace flaneur
