@@ -14,6 +14,7 @@
 #include "pipeline/io/motion_reader.h"
 #include "pipeline/io/scene_reader.h"
 #include "pipeline/rig/clip_loop.h"
+#include "pipeline/rig/clip_rig.h"
 #include "pipeline/rig/retarget.h"
 #include "runtime/base/limits.h"
 #include "runtime/base/pixels.h"
@@ -195,7 +196,7 @@ std::string TryMotion(const std::filesystem::path& path, Bytes) {
     if (clip.transforms.size() != joints.size() * static_cast<size_t>(clip.keys)) return "keys that lack joints";
     Rig source;
     std::string why;
-    if (!MakeRig(motion.skeleton, motion.told, &source, &why)) continue;
+    if (!MakeClipRig(motion.skeleton, motion.told, clip, &source, &why)) continue;
     const Retargeted made = Retarget(source, clip, ShippedRig());
     if (made.clip.transforms.size() % static_cast<size_t>(std::max(1, made.clip.keys)) != 0)
       return "fitted keys that lack joints";
