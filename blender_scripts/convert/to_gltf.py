@@ -7,6 +7,7 @@ of any kind in IMPORTERS. Custom properties become extras, every action of a rig
 """
 
 import os
+import re
 import sys
 
 sys.path.insert(0, os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
@@ -40,10 +41,20 @@ def import_x3d(path):
     by_operator("import_scene", "x3d")(path)
 
 
+def import_fbx(path):
+    with open(path, "rb") as file:
+        start = file.read(27)  # a name, and the version
+    if not start.startswith(b"Kaydara FBX Binary"[:max(1, len(start))]):
+        fail("%s: is no binary FBX; save it as one (FBX 7.4), or as glTF" % path)
+    if len(start) < 27:
+        fail("%s: is cut short; export or download it again" % path)
+    by_operator("import_scene", "fbx", use_custom_props=True)(path)
+
+
 IMPORTERS = {
     ".obj": by_operator("wm", "obj_import") if knows(bpy.ops.wm, "obj_import") else by_operator("import_scene", "obj"),
     ".dae": by_operator("wm", "collada_import"),
-    ".fbx": by_operator("import_scene", "fbx", use_custom_props=True),
+    ".fbx": import_fbx,
     ".x3d": import_x3d, ".wrl": import_x3d,
     ".abc": by_operator("wm", "alembic_import", as_background_job=False),
     **{kind: by_operator("wm", "usd_import") for kind in (".usd", ".usda", ".usdc", ".usdz")},
@@ -135,13 +146,23 @@ def apply_modifiers_beside_shape_keys():
     return False
 
 
+def in_plain_words(error):
+    """What Blender says, without the file's name, which stands before it, and without its own places."""
+    said = str(error).replace("Error: ", "")
+    if "Couldn't open file" in said:  # so it calls all that it cannot parse
+        return "is damaged or cut short; export or download it again"
+    for odd in (r" in file '.*'", r" \(see Blender Console\)"):
+        said = re.sub(odd, "", said)
+    return said
+
+
 def main():
     settings = load_settings(required=("output",), options={"input": ""})
     path = settings["options"]["input"]
     try:
         open_input(path)
     except RuntimeError as error:
-        fail("%s: %s" % (path, str(error).replace("Error: ", "")))
+        fail("%s: %s" % (path, in_plain_words(error)))
     if not any(thing.type in ("MESH", "ARMATURE") for thing in bpy.context.scene.objects):
         fail("%s: holds neither a mesh nor a rig" % path)
     only_clips_of_rigs()

@@ -11,6 +11,18 @@
 namespace flaneur {
 namespace fs = std::filesystem;
 
+namespace {
+
+// Where the script itself has said what is wrong with the file, that Blender ended says nothing more.
+Error InTheUsersWords(const Error& e, const std::string& named, const fs::path& path) {
+  const size_t at = e.message.find(named + ": "), end = e.message.rfind(" (Blender ended with status 1)");
+  if (at == std::string::npos || end == std::string::npos) return e;
+  const size_t said = at + named.size();
+  return Fail(path.string() + e.message.substr(said, end - said));
+}
+
+}  // namespace
+
 bool NeedsBlender(const fs::path& path) {
   static constexpr const char* kExtensions[] = {".blend", ".fbx", ".dae",  ".x3d",  ".wrl",
                                                 ".abc",   ".usd", ".usda", ".usdc", ".usdz"};
@@ -22,8 +34,10 @@ Error ConvertToGltf(const fs::path& path, TemporaryFolder* folder, fs::path* glt
   if (Error e = CheckReadable(path)) return e;
   if (Error e = folder->Create("flaneur_import_")) return e;
   *gltf = folder->path() / path.filename().replace_extension(".glb");
-  const nlohmann::json settings{{"output", gltf->string()}, {"options", {{"input", fs::absolute(path).string()}}}};
-  return RunBlenderScript("convert/to_gltf.py", settings.dump(), {}, nullptr);
+  const std::string named = fs::absolute(path).string();
+  const nlohmann::json settings{{"output", gltf->string()}, {"options", {{"input", named}}}};
+  const Error e = RunBlenderScript("convert/to_gltf.py", settings.dump(), {}, nullptr);
+  return e ? InTheUsersWords(e, named, path) : Ok();
 }
 
 }  // namespace flaneur

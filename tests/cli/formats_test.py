@@ -94,6 +94,15 @@ class Formats(unittest.TestCase):
                 self.assertIn(name, result.stderr)
                 self.assertFalse((self.folder / "none.glb").exists())
 
+    def test_what_is_wrong_with_an_fbx_is_said(self):
+        whole = (self.folder / "figure.fbx").read_bytes()
+        for content, said in ((b"; FBX 7.4.0 project file\n", "is no binary FBX; save it as one"), (b"", "is no binary FBX"), (whole[:25], "is cut short"), (whole[:len(whole) // 2], "is damaged or cut short")):
+            (self.folder / "odd.fbx").write_bytes(content)
+            for arguments in ((self.folder / "odd.fbx",), (self.folder / "figure.fbx", "--clips", self.folder / "odd.fbx")):
+                result = run("flaneur", "avatar", *arguments, "-o", self.folder / "none.glb")
+                self.assertEqual(result.returncode, 2)
+                self.assertRegex(result.stderr, "^flaneur: error: .*odd.fbx: " + said)
+
     def test_a_town_may_be_what_blender_reads_and_a_scan(self):
         for name in ("town.blend", "town.x3d", "town.ply"):
             if not (self.folder / name).exists():
