@@ -82,11 +82,10 @@ constexpr std::array kIdeographs = {
 constexpr std::array<std::string_view, 6> kIdeographsOfNoBody = {"ＩＫ", "IK", "捩", "先", "親", "指"};
 
 // Whose rig it is, and what says nothing about where.
-constexpr std::array<std::string_view, 25> kIdle = {"mixamorig", "bip",      "biped",     "valve",  "def",  "deform",
-                                                    "bn",        "bone",     "jnt",       "joint",  "jt",   "cc",
-                                                    "base",      "j",        "b",         "sk",     "c",    "rig",
-                                                    "armature",  "skeleton", "character", "center", "gltf", "bind",
-                                                    "m"};
+constexpr std::array<std::string_view, 25> kIdle = {
+    "mixamorig", "bip",      "biped",     "valve",  "def",  "deform", "bn", "bone", "jnt",
+    "joint",     "jt",       "cc",        "base",   "j",    "b",      "sk", "c",    "rig",
+    "armature",  "skeleton", "character", "center", "gltf", "bind",   "m"};
 
 bool IsIdle(const Token& token) { return std::find(kIdle.begin(), kIdle.end(), token) != kIdle.end(); }
 
