@@ -82,7 +82,8 @@ std::map<int, int> TwinsOf(const GltfDocument& document, const Skeleton& main, c
   const float near = kSamePlace * SizeOf(main);
   for (const auto& [node, bind] : twin.bind) {
     const auto [begin, end] = by_stem.equal_range(Stem(At(document.nodes, node).name));
-    const auto same = std::find_if(begin, end, [&](const auto& at) { return Same(bind, main.bind.at(at.second), near); });
+    const auto same =
+        std::find_if(begin, end, [&](const auto& at) { return Same(bind, main.bind.at(at.second), near); });
     if (same != end) twins[node] = same->second;
   }
   return twins;
