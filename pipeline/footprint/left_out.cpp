@@ -82,9 +82,9 @@ void AddTogether(const std::vector<Loss>& losses, std::vector<std::string>* warn
       if (const int n = times[several + object]; n > 1) object += " (" + std::to_string(n) + " times)";
     }
     const auto loss = std::find_if(losses.begin(), losses.end(), [&](const Loss& l) { return l.several == several; });
-    warnings->push_back(own.size() == 1 ? own.front() + " " + loss->one
-                                        : std::to_string(own.size()) + " objects " + several + ": " +
-                                              Listed(own, own.size()));
+    warnings->push_back(own.size() == 1
+                            ? own.front() + " " + loss->one
+                            : std::to_string(own.size()) + " objects " + several + ": " + Listed(own, own.size()));
   }
 }
 
@@ -95,8 +95,8 @@ void WarnOfLeftOut(const Site& site, const TownObjects& town, const std::vector<
                    std::vector<std::string>* warnings) {
   WarnOfFlat(town.flat, warnings);
   WarnOfUntold(town.untold, warnings);
-  const std::string band =
-      "part between " + Number(site.options.band_m[0]) + " and " + Number(site.options.band_m[1]) + " m over the ground";
+  const std::string band = "part between " + Number(site.options.band_m[0]) + " and " + Number(site.options.band_m[1]) +
+                           " m over the ground";
   std::vector<Loss> losses;
   for (size_t i = 0; i < town.obstacles.size(); ++i) {
     const TownObject& object = town.obstacles[i];
@@ -114,7 +114,8 @@ void WarnOfLeftOut(const Site& site, const TownObjects& town, const std::vector<
           buried_m2 > 0
               ? Loss{"leaves nothing in the way: it has no " + band + "; it lies beneath the town's terrain",
                      "leave nothing in the way, with no " + band + ", as they lie beneath the town's terrain", name}
-              : Loss{"leaves nothing in the way: it has no " + band, "leave nothing in the way, with no " + band, name});
+              : Loss{"leaves nothing in the way: it has no " + band, "leave nothing in the way, with no " + band,
+                     name});
     } else if (object.is_bridge) {
       losses.push_back({"leaves nothing in the way: it is a bridge, and is walked over",
                         "leave nothing in the way: they are bridges, and are walked over", name});

@@ -322,8 +322,9 @@ std::vector<std::string> UnusedFiles(const ReadAvatarOptions& options, const Cli
                                    [&](const auto& path) { return path.string() == file.path; });
     const bool used = std::any_of(choice.clips.begin(), choice.clips.end(),
                                   [&](const ChosenClip& clip) { return clip.file == static_cast<int>(i); });
-    if (asked && !used) unused.push_back("no clip of " + file.path + " is used (it has: " + Listed(file.clip_names) +
-                                         "); name the one that becomes walk, idle or talk");
+    if (asked && !used)
+      unused.push_back("no clip of " + file.path + " is used (it has: " + Listed(file.clip_names) +
+                       "); name the one that becomes walk, idle or talk");
   }
   return unused;
 }

@@ -99,7 +99,8 @@ Mat4 LocalMatrix(const DocumentNode& node);
 // World matrices of all nodes, from each node's own transform.
 std::vector<Mat4> WorldMatrices(const GltfDocument& document);
 
-// Errors and warnings name the element and the file: `named`, the user's own where the glTF was made of it; empty: `path`.
+// Errors and warnings name the element and the file: `named`, the user's own where the glTF was made of it; empty:
+// `path`.
 Error LoadGltf(const std::filesystem::path& path, GltfDocument* document, std::vector<std::string>* warnings,
                const std::filesystem::path& named = {});
 

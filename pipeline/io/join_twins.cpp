@@ -122,10 +122,14 @@ void GoOver(const std::map<int, int>& twins, const Skeleton& twin, GltfDocument*
   }
   for (int n = 0; n < Count(document->nodes); ++n) {
     DocumentNode& node = At(document->nodes, n);
-    if (twins.count(n) > 0) {
+    const auto own = twins.find(n), above = twins.find(node.parent);
+    if (own != twins.end() && node.mesh < 0) {
       node.in_scene = false;  // another stands for it
-    } else if (const auto to = twins.find(node.parent); to != twins.end() && !IsAbove(*document, n, to->second)) {
-      node.parent = to->second;
+    } else if (own != twins.end() && !IsAbove(*document, n, own->second)) {
+      node.parent = own->second;  // it shows something, and stands there
+      node.translation = {}, node.rotation = {}, node.scale = {1, 1, 1}, node.has_matrix = false;
+    } else if (above != twins.end() && !IsAbove(*document, n, above->second)) {
+      node.parent = above->second;
     }
   }
 }

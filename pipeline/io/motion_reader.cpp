@@ -69,7 +69,7 @@ void TakeFigure(const std::vector<int>& joint_of, const std::vector<Mat4>& rest,
         if (node.skin >= 0) {
           const DocumentSkin& skin = At(document.skins, node.skin);
           const int k = HeaviestJoint(primitive.influences, v);
-          if (k < 0) continue;
+          if (!InRange(skin.joints, k)) continue;
           on = At(skin.joints, k);
           place = At(rest, on) * At(skin.inverse_binds, k);
         }

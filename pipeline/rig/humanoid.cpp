@@ -13,6 +13,7 @@ namespace {
 
 constexpr float kStraight_rad = 0.6f;  // between two bones that are one limb's upper part
 constexpr int kFingers = 5;
+constexpr float kLeastFoot = 0.1f;  // of the shin, from ankle to toes: nearer ones split the ankle's twist
 
 using Joints = std::vector<Joint>;
 
@@ -83,7 +84,7 @@ class NameReader {
     return below >= 0 ? below : Find(part, side);
   }
 
-  // The one joint on it that others hang on: whatever it is called, it bends what it is on. -1: none, or several.
+  // The one joint on it that others hang on. -1: none, or several.
   int OnlyBoneOn(int joint) const {
     int only = -1;
     for (const Joint& end : joints_) {
@@ -93,6 +94,16 @@ class NameReader {
       only = bone;
     }
     return only;
+  }
+
+  // A foot below an ankle, or what else bends the foot before its tip.
+  int UnnamedToes(BodySide side, const HumanoidLeg& leg) const {
+    int toes = Find(BodyPart::kFoot, side, leg.foot);
+    if (toes < 0) toes = OnlyBoneOn(leg.foot);
+    if (toes < 0) return -1;
+    const Vec3 ankle = At(positions_, leg.foot);
+    const float shin_m = Length(ankle - At(positions_, leg.lower));
+    return Length(At(positions_, toes) - ankle) > kLeastFoot * shin_m ? toes : -1;
   }
 
   HumanoidLeg Leg(BodySide side) const {
@@ -108,8 +119,7 @@ class NameReader {
     if (leg.lower >= 0 && !IsBelow(joints_, leg.lower, leg.upper)) leg.lower = -1;
     leg.foot = FindBelow(BodyPart::kFoot, side, leg.lower);
     leg.toes = FindBelow(BodyPart::kToes, side, leg.foot);
-    if (leg.foot >= 0 && leg.toes < 0) leg.toes = Find(BodyPart::kFoot, side, leg.foot);  // below an ankle
-    if (leg.foot >= 0 && leg.toes < 0) leg.toes = OnlyBoneOn(leg.foot);
+    if (leg.lower >= 0 && leg.foot >= 0 && leg.toes < 0) leg.toes = UnnamedToes(side, leg);
     if (leg.foot >= 0 && leg.toes >= 0 && !IsBelow(joints_, leg.toes, leg.foot)) leg.toes = -1;
     if (leg.lower < 0) leg.toes = leg.foot = -1;
     return leg;

@@ -574,6 +574,18 @@ TEST(Unscaled, TakesMirroringOffToo) {
   EXPECT_NEAR(Length(Cross(x, y) - TransformDirection(own, {0, 0, 1})), 0, 1e-5f) << "right-handed";
 }
 
+// Its vertices hang on joints that its skin does not have; only its clips are wanted.
+TEST_F(AvatarFile, ABrokenFigureInAFileOfClipsDoesNotMatter) {
+  Avatar walker = MadeHuman({.leg_m = 0.6f});
+  walker.clips = {MadeWalk(walker)};
+  const fs::path clips = folder_ / "clips.glb";
+  ASSERT_EQ(WriteAvatarGlb(clips, OneLevel(walker)).message, "");
+  ReadAvatarOptions options;
+  options.clip_files = {Changed(clips, ",5,6,7,8,9,10,11,12,13,14,15,16,17,18]", "]")};
+  EXPECT_EQ(Read(Write(MadeHuman({})), options), "");
+  EXPECT_NE(FindClip(avatar_, "walk"), nullptr);
+}
+
 TEST_F(AvatarFile, PartsOfOneSkeletonAreOnePerson) {
   Avatar body = MadeHuman({}), hair = MadeHuman({});
   body.clips = {MadeWalk(body)};

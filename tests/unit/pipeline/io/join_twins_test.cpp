@@ -80,6 +80,19 @@ TEST(JoinTwins, TheOneThatClipsMoveIsFollowed) {
   ExpectParentsFirst(document);
 }
 
+TEST(JoinTwins, ABoneThatShowsSomethingItselfGoesOnShowingIt) {
+  GltfDocument document;
+  AddSkeleton("", 0, &document);
+  AddBone("plume", 2, &document);
+  AddSkeleton("", 0, &document);
+  document.nodes[6].mesh = 0;
+  JoinTwins(&document);
+  EXPECT_TRUE(document.nodes[6].in_scene);
+  EXPECT_EQ(document.nodes[6].parent, 2);
+  EXPECT_EQ(Length(TransformPoint(LocalMatrix(document.nodes[6]), {})), 0);
+  ExpectParentsFirst(document);
+}
+
 TEST(JoinTwins, WhoStandsBesideAnotherStaysTwo) {
   GltfDocument document;
   AddSkeleton("", 0, &document);
