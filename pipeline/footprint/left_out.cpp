@@ -68,23 +68,22 @@ struct Loss {
 
 // One line for all to whom the same happens. Instances of one thing have one name: said once, with how often.
 void AddTogether(const std::vector<Loss>& losses, std::vector<std::string>* warnings) {
-  std::vector<std::string> lines;
+  std::vector<const Loss*> first;  // of its kind
   std::map<std::string, std::vector<std::string>> objects;
   std::map<std::string, int> times;
   for (const Loss& loss : losses) {
     if (++times[loss.several + loss.object] > 1) continue;
-    if (objects[loss.several].empty()) lines.push_back(loss.several);
+    if (objects[loss.several].empty()) first.push_back(&loss);
     objects[loss.several].push_back(loss.object);
   }
-  for (const std::string& several : lines) {
-    std::vector<std::string>& own = objects[several];
+  for (const Loss* const loss : first) {
+    std::vector<std::string>& own = objects[loss->several];
     for (std::string& object : own) {
-      if (const int n = times[several + object]; n > 1) object += " (" + std::to_string(n) + " times)";
+      if (const int n = times[loss->several + object]; n > 1) object += " (" + std::to_string(n) + " times)";
     }
-    const auto loss = std::find_if(losses.begin(), losses.end(), [&](const Loss& l) { return l.several == several; });
-    warnings->push_back(own.size() == 1
-                            ? own.front() + " " + loss->one
-                            : std::to_string(own.size()) + " objects " + several + ": " + Listed(own, own.size()));
+    warnings->push_back(own.size() == 1 ? own.front() + " " + loss->one
+                                        : std::to_string(own.size()) + " objects " + loss->several + ": " +
+                                              Listed(own, own.size()));
   }
 }
 

@@ -584,7 +584,10 @@ Error AvatarReader::JudgeLoneWalk(const Rig& rig) {
   const bool named_otherwise = IsNoWalk(name);
   const bool own_sits = walk->file < 0 && Sits(rig, clip);
   if (own_sits || (!named_otherwise && (!human || !KeepsLegsStill(source, clip)))) return Ok();
-  clips_ = {};
+  ClipChoice anew;
+  anew.files = std::move(clips_.files);  // opened once
+  anew.shipped = clips_.shipped;
+  clips_ = std::move(anew);
   if (Error e = ChooseClips(document_, options_, named_otherwise ? LoneClip::kNone : LoneClip::kIdle, &clips_))
     return e;
   clips_.missing = Quoted(name) + (named_otherwise ? " is none by its name" : " moves no leg");

@@ -172,6 +172,13 @@ class Chooser {
     return Ok();
   }
 
+  // Other files, then the avatar's.
+  std::vector<int> AllFiles() const {
+    std::vector<int> files = library_;
+    files.push_back(-1);
+    return files;
+  }
+
   const std::vector<std::string>& NamesIn(int file) const {
     return file < 0 ? own_ : At(choice_.files, file).clip_names;
   }
@@ -189,9 +196,7 @@ class Chooser {
   // Where a clip of that very name is, in other files, then in the avatar's, then in the program's.
   Error TakeNamed(const std::string& name, const std::string& wanted) {
     std::vector<std::string> known;
-    std::vector<int> files = library_;
-    files.push_back(-1);
-    for (const int file : files) {
+    for (const int file : AllFiles()) {
       const int clip = NamedClip(NamesIn(file), wanted);
       if (clip >= 0) {
         if (!MovesIn(file, clip) && name == "walk") return Fail("walk clip " + Quoted(wanted) + " moves nothing");
@@ -249,8 +254,7 @@ class Chooser {
   }
 
   bool TakeLoneOfAny(const std::string& name) {
-    std::vector<int> files = library_;
-    files.push_back(-1);
+    const std::vector<int> files = AllFiles();
     return TakeLone(name, files, false) || TakeLone(name, files, true);
   }
 
@@ -258,9 +262,7 @@ class Chooser {
     choice_.lone_walk = lone_ == LoneClip::kWalk && TakeLoneOfAny("walk");
     if (choice_.lone_walk) return Ok();
     choice_.missing = "the file has: " + Listed(own_) + (own_.empty() ? "" : "; name the one to walk with");
-    std::vector<int> files = library_;
-    files.push_back(-1);
-    for (const int file : files) {
+    for (const int file : AllFiles()) {
       if (const int still = GuessClip(NamesIn(file), "walk"); still >= 0)
         choice_.missing = Quoted(At(NamesIn(file), still)) + " moves nothing";
     }
@@ -292,9 +294,7 @@ class Chooser {
       return Ok();
     }
     if (!request.clip.empty()) return TakeNamed(request.name, request.clip);
-    std::vector<int> files = library_;
-    files.push_back(-1);
-    for (const int file : files) {
+    for (const int file : AllFiles()) {
       const int clip = NamedClip(NamesIn(file), wanted);
       if (clip < 0) continue;
       Take(request.name, file, clip);

@@ -187,6 +187,18 @@ Error ReadModel(const Model& model, GltfDocument* document, std::vector<std::str
 
 }  // namespace
 
+std::vector<int> DepthFirst(const std::vector<int>& roots, const std::vector<std::vector<int>>& children_of) {
+  std::vector<int> stack(roots.rbegin(), roots.rend()), order;
+  while (!stack.empty()) {
+    const int node = stack.back();
+    stack.pop_back();
+    order.push_back(node);
+    const auto& children = At(children_of, node);
+    stack.insert(stack.end(), children.rbegin(), children.rend());
+  }
+  return order;
+}
+
 Mat4 LocalMatrix(const DocumentNode& node) {
   if (node.has_matrix) return node.matrix;
   return FromTranslationRotationScale(node.translation, node.rotation, node.scale);

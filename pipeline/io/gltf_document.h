@@ -94,6 +94,9 @@ struct GltfDocument {
   std::vector<DocumentBone> bones;  // of VRM 0.x, VRM 1.0 and VRM animations
 };
 
+// Parents before children; nodes in a ring are never reached.
+std::vector<int> DepthFirst(const std::vector<int>& roots, const std::vector<std::vector<int>>& children_of);
+
 Mat4 LocalMatrix(const DocumentNode& node);
 
 // World matrices of all nodes, from each node's own transform.

@@ -106,24 +106,17 @@ void NameAsParents(const Model& model, GltfDocument* document) {
   }
 }
 
-// Depth first from the roots; nodes in a ring are never reached.
 Error OrderNodes(const Model& model, GltfDocument* document) {
   std::vector<std::vector<int>> children_of;
   for (const tinygltf::Node& node : model.nodes) children_of.push_back(node.children);
   children_of.resize(document->nodes.size());
   for (int i = Count(model.nodes); i < Count(document->nodes); ++i)
     At(children_of, At(document->nodes, i).parent).push_back(i);
-  std::vector<int> stack;
-  for (int i = Count(document->nodes) - 1; i >= 0; --i) {
-    if (At(document->nodes, i).parent < 0) stack.push_back(i);
+  std::vector<int> roots;
+  for (int i = 0; i < Count(document->nodes); ++i) {
+    if (At(document->nodes, i).parent < 0) roots.push_back(i);
   }
-  while (!stack.empty()) {
-    const int node = stack.back();
-    stack.pop_back();
-    document->order.push_back(node);
-    const auto& children = At(children_of, node);
-    stack.insert(stack.end(), children.rbegin(), children.rend());
-  }
+  document->order = DepthFirst(roots, children_of);
   if (document->order.size() != document->nodes.size()) return Fail("its nodes form a ring");
   return Ok();
 }

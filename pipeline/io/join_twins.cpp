@@ -91,22 +91,13 @@ std::map<int, int> TwinsOf(const GltfDocument& document, const Skeleton& main, c
 
 // Parents before children again.
 void Reorder(GltfDocument* document) {
-  std::vector<std::vector<int>> children(document->nodes.size());
-  std::vector<int> stack, order;
+  std::vector<std::vector<int>> children_of(document->nodes.size());
+  std::vector<int> roots;
   for (const int n : document->order) {
     const int parent = At(document->nodes, n).parent;
-    if (parent >= 0) At(children, parent).push_back(n);
-    else order.push_back(n);
+    (parent >= 0 ? At(children_of, parent) : roots).push_back(n);
   }
-  stack.assign(order.rbegin(), order.rend());
-  order.clear();
-  while (!stack.empty()) {
-    const int n = stack.back();
-    stack.pop_back();
-    order.push_back(n);
-    stack.insert(stack.end(), At(children, n).rbegin(), At(children, n).rend());
-  }
-  document->order = std::move(order);
+  document->order = DepthFirst(roots, children_of);
 }
 
 bool IsAbove(const GltfDocument& document, int node, int other) {

@@ -52,7 +52,7 @@ int HeaviestJoint(const Influences& influences, size_t vertex) {
   return width > 0 && influences.weights[heaviest] > 0 ? influences.joints[heaviest] : -1;
 }
 
-// The vertices of what the file shows, as the skeleton rests, each on one joint: where soles and the ends of limbs are.
+// The vertices of what the file shows, as the skeleton rests, each on one joint: where arms of one bone end.
 void TakeFigure(const std::vector<int>& joint_of, const std::vector<Mat4>& rest, MotionFile* motion) {
   const GltfDocument& document = motion->document;
   if (motion->joint_nodes.size() > UINT16_MAX) return;
@@ -61,19 +61,18 @@ void TakeFigure(const std::vector<int>& joint_of, const std::vector<Mat4>& rest,
     if (!node.in_scene || node.mesh < 0) continue;
     int bone = n;  // that a thing without a skin hangs on
     while (bone >= 0 && At(joint_of, bone) < 0) bone = At(document.nodes, bone).parent;
+    const DocumentSkin* const skin = node.skin >= 0 ? &At(document.skins, node.skin) : nullptr;
+    std::vector<Mat4> as_bound;  // by the skin's joint
+    for (size_t k = 0; skin != nullptr && k < skin->joints.size(); ++k)
+      as_bound.push_back(At(rest, skin->joints[k]) * skin->inverse_binds[k]);
     for (const DocumentPrimitive& primitive : At(document.meshes, node.mesh).primitives) {
       Mesh figure;
       for (size_t v = 0; v < primitive.mesh.positions.size(); ++v) {
-        int on = bone;
-        Mat4 place = At(rest, n);
-        if (node.skin >= 0) {
-          const DocumentSkin& skin = At(document.skins, node.skin);
-          const int k = HeaviestJoint(primitive.influences, v);
-          if (!InRange(skin.joints, k)) continue;
-          on = At(skin.joints, k);
-          place = At(rest, on) * At(skin.inverse_binds, k);
-        }
+        const int k = skin != nullptr ? HeaviestJoint(primitive.influences, v) : -1;
+        if (skin != nullptr && !InRange(skin->joints, k)) continue;
+        const int on = skin != nullptr ? At(skin->joints, k) : bone;
         if (on < 0 || At(joint_of, on) < 0) continue;
+        const Mat4& place = skin != nullptr ? At(as_bound, k) : At(rest, n);
         figure.positions.push_back(TransformPoint(place, primitive.mesh.positions[v]));
         figure.joints.push_back({static_cast<uint16_t>(At(joint_of, on)), 0, 0, 0});
         figure.weights.push_back({1, 0, 0, 0});
