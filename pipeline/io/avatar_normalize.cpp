@@ -19,6 +19,8 @@ constexpr float kSmallest_m = 0.8f;                        // who walks by thems
 constexpr float kTallest_m = 2.1f;                         // with a hat
 constexpr float kFlat = 0.4f;                              // of its width: a lower figure hardly stands
 constexpr float kHangs = 0.02f;                            // of the height: what hangs lower than the soles by more
+constexpr float kStrays = 0.1f;                            // of the height: how far who stands is from the walk
+constexpr float kElsewhere = 1;                            // the same of who does anything else
 constexpr float kDefaultSpeed_mps = 1.3f;                  // of an adult, where nothing tells
 constexpr float kMinSpeed_mps = 0.2f;                      // slower is not a walk, of an adult
 constexpr float kSole = 0.015f;                            // of the height: how near the ground a standing sole is
@@ -82,10 +84,8 @@ float LowestOf(const std::vector<Vec3>& points) {
 }
 
 // Of the feet over the walk: by how much the lowest of them dips into the ground that the others stand on.
-float DipOf(const Avatar& avatar, const std::vector<NamedBone>& told, const std::vector<std::vector<Vec3>>& feet) {
-  Rig rig;
-  std::string why;
-  if (!MakeRig(avatar, told, &rig, &why) || !BendsKnees(rig)) return 0;
+float DipOf(const Rig& rig, const std::vector<std::vector<Vec3>>& feet) {
+  if (!BendsKnees(rig)) return 0;
   std::vector<float> lowest;
   for (const auto& positions : feet) lowest.push_back(LowestOf(positions));
   return std::max(0.0f, GroundUnder(lowest, rig.leg_m, true) - *std::min_element(lowest.begin(), lowest.end()));
@@ -119,6 +119,32 @@ Vec3 MedianOf(const std::vector<Vec3>& points) {
   return {Median(std::move(x)), 0, Median(std::move(z))};
 }
 
+Vec3 BetweenThighs(const Humanoid& humanoid, const Pose& pose) {
+  return (pose.positions[static_cast<size_t>(humanoid.legs[kLeft].upper)] +
+          pose.positions[static_cast<size_t>(humanoid.legs[kRight].upper)]) *
+         0.5f;
+}
+
+// Where the hips are over the clip, whatever hangs about them: x and z, y is 0.
+Vec3 HipsOver(const Humanoid& humanoid, const std::vector<Joint>& joints, const Clip& clip) {
+  std::vector<Vec3> hips;
+  for (int k = 0; k + 1 < clip.keys; ++k) {
+    const Transform* key = clip.transforms.data() + static_cast<size_t>(k) * joints.size();
+    hips.push_back(BetweenThighs(humanoid, PoseOf(joints, key)));
+  }
+  return MedianOf(hips);
+}
+
+// Of the bind pose, x and z; that of no human: where it is.
+Vec3 HipsAtRest(const Avatar& avatar, const std::vector<NamedBone>& told) {
+  const Pose bind = BindPose(avatar.joints);
+  Humanoid humanoid;
+  std::string why;
+  if (!FindHumanoid(avatar.joints, bind.positions, told, &humanoid, &why) || humanoid.quadruped) return {};
+  const Vec3 hips = BetweenThighs(humanoid, bind);
+  return {hips.x, 0, hips.z};
+}
+
 // Vertices that are marked, with their skin.
 Mesh Only(const std::vector<bool>& marked, const Mesh& mesh) {
   Mesh out;
@@ -131,10 +157,11 @@ Mesh Only(const std::vector<bool>& marked, const Mesh& mesh) {
   return out;
 }
 
-// Feet on the ground, trunk over the origin. Idle and talk keep their place beside the walk unless they stray; what is
-// done besides is moved as the walk is: who sits has the trunk behind the feet, and a child's feet over the ground.
-// Feet are the lowest there is, unless something hangs below them in the walk: then they alone count. Toes and heels
-// that dip deep into what the feet stand on in a stylized walk lift nobody off it.
+// Feet on the ground, hips over the origin, or the trunk of who has no legs: a sword held out moves nobody. Idle and
+// talk keep their place beside the walk unless they stray; what is done besides is lifted as the walk is, and keeps
+// its place unless that is elsewhere altogether: who sits has the trunk behind the feet, and a child's feet over the
+// ground. Feet are the lowest there is, unless something hangs below them in the walk: then they alone count. Toes and
+// heels that dip deep into what the feet stand on in a stylized walk lift nobody off it.
 void PlaceClips(const Mesh& whole, const std::vector<NamedBone>& told, Avatar* avatar,
                 std::vector<std::string>* warnings) {
   const Clip& walk_clip = *FindClip(*avatar, "walk");
@@ -143,7 +170,10 @@ void PlaceClips(const Mesh& whole, const std::vector<NamedBone>& told, Avatar* a
   const Mesh feet = Only(OnFeet(*avatar, told, whole), whole);
   const auto steps = BodyOverClip(*avatar, walk_clip, feet);
   const float soles = feet.positions.empty() ? walk_ground : Lowest(steps);
-  const float dip = feet.positions.empty() ? 0 : DipOf(*avatar, told, steps);
+  Rig rig;
+  std::string why;
+  const bool human = MakeRig(*avatar, told, &rig, &why);
+  const float dip = feet.positions.empty() || !human ? 0 : DipOf(rig, steps);
   const bool hangs = soles - walk_ground > kHangs * avatar->height_m;
   if (hangs) {
     warnings->push_back("something hangs " + Metres(soles - walk_ground) +
@@ -152,16 +182,14 @@ void PlaceClips(const Mesh& whole, const std::vector<NamedBone>& told, Avatar* a
   }
   walk_ground += dip;
   for (Clip& clip : avatar->clips) {
-    if (clip.name != "walk" && clip.name != "idle" && clip.name != "talk") {
-      ShiftClip(avatar->joints, &clip, {0, -walk_ground, 0});
-      continue;
-    }
     const auto keys = BodyOverClip(*avatar, clip, whole);
+    const bool walks = clip.name == "walk", stands = walks || clip.name == "idle" || clip.name == "talk";
     const float lowest = hangs ? Lowest(BodyOverClip(*avatar, clip, feet)) : Lowest(keys);
-    const float ground = lowest + (clip.name == "walk" ? dip : 0);
-    Vec3 center = MedianOf(Trunk(keys, ground, avatar->height_m));
-    const bool strays = Length(center) > 0.1f * avatar->height_m;
-    if (clip.name != "walk" && !strays) center = {};
+    const float ground = !stands ? walk_ground : lowest + (walks ? dip : 0);
+    Vec3 center =
+        human ? HipsOver(rig.humanoid, avatar->joints, clip) : MedianOf(Trunk(keys, ground, avatar->height_m));
+    const bool strays = Length(center) > (stands ? kStrays : kElsewhere) * avatar->height_m;
+    if (!walks && !strays) center = {};
     ShiftClip(avatar->joints, &clip, {-center.x, -ground, -center.z});
   }
 }
@@ -225,7 +253,8 @@ Error ScaleToHeight(const NormalizeOptions& options, Avatar* avatar, Mesh* body,
   const float wanted = options.height_m > 0 ? options.height_m : HeightByItself(options, *avatar, height, warnings);
   *scale = wanted / height;
   if (options.height_m <= 0 && options.scale > 0) *scale = options.scale;
-  ScaleAvatar(*scale, Vec3{0, -extent.min.y, 0} * *scale, avatar, body);
+  const Vec3 hips = HipsAtRest(*avatar, options.told);
+  ScaleAvatar(*scale, Vec3{-hips.x, -extent.min.y, -hips.z} * *scale, avatar, body);
   avatar->height_m = height * *scale;
   return Ok();
 }
