@@ -19,9 +19,10 @@ struct NormalizeOptions {
 
 // Stands the figure up where it lies, removes travel from the clips, makes them loop, turns the figure so that it walks
 // towards +Z (by quarters, or by any angle of more than 10 degrees that its skeleton shows), scales, sets the feet on y
-// = 0 (lowest point over each clip) and the trunk over x = z = 0, then measures height, radius and walking speed.
-// `body`: the part of the surface that can touch the ground and that gives the trunk's width, without what is carried;
-// on the avatar's joints. Errors: a figure without height, numbers beyond reason.
+// = 0 (lowest point over each clip) and the hips, or the trunk of who has no legs, over x = z = 0, then measures
+// height, radius and walking speed. `body`: the part of the surface that can touch the ground and that gives the
+// trunk's width, without what is carried; on the avatar's joints. Errors: a figure without height, numbers beyond
+// reason.
 Error NormalizeAvatar(const NormalizeOptions& options, const Mesh& body, Avatar* avatar,
                       std::vector<std::string>* warnings);
 

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numeric>
+#include <tuple>
 
 #include "pipeline/core/rotation.h"
 #include "pipeline/rig/steps.h"
@@ -11,7 +13,7 @@
 namespace flaneur {
 namespace {
 
-constexpr size_t kTrunkPoints = 900, kArmPoints = 140, kFootPoints = 20000;  // that are looked at
+constexpr size_t kTrunkPoints = 2000, kArmPoints = 300, kFootPoints = 20000;  // that are looked at
 constexpr float kSoleBand = 0.024f;  // of the leg's length, about 2 cm: how near the ground a sole is on it
 constexpr float kFarthest = 0.12f;   // of the leg's length: deeper than that is another side of the body
 constexpr float kClear = 0.006f;     // of the leg's length: a hand may be so deep
@@ -67,26 +69,42 @@ std::vector<bool> FootJoints(const Rig& rig) {
   return feet;
 }
 
-// Vertices that hang mostly on these joints, thinned to `most`.
+void AddPoint(const Mesh& from, size_t v, Mesh* points) {
+  points->positions.push_back(from.positions[v]);
+  points->normals.push_back(from.normals[v]);
+  points->joints.push_back(from.joints[v]);
+  points->weights.push_back(from.weights[v]);
+}
+
+// One point where several vertices lie, with the mean of their normals, in an order of place: the same for a figure
+// whatever its edges, materials and meshes split, and in whatever order.
+Mesh Welded(const Mesh& mesh) {
+  std::vector<size_t> order(mesh.positions.size());
+  std::iota(order.begin(), order.end(), 0);
+  const auto place = [&](size_t v) { return std::tie(mesh.positions[v].x, mesh.positions[v].y, mesh.positions[v].z); };
+  std::stable_sort(order.begin(), order.end(), [&](size_t a, size_t b) { return place(a) < place(b); });
+  Mesh welded;
+  for (const size_t v : order) {
+    const bool same = !welded.positions.empty() && Length(welded.positions.back() - mesh.positions[v]) == 0;
+    if (same) welded.normals.back() = welded.normals.back() + mesh.normals[v];
+    else AddPoint(mesh, v, &welded);
+  }
+  for (Vec3& normal : welded.normals) normal = Normalized(normal);
+  return welded;
+}
+
+// Where vertices hang mostly on these joints, thinned to `most`.
 Mesh PointsOn(const Avatar& person, const std::vector<bool>& joints, size_t most) {
   Mesh all;
   for (const Mesh& mesh : person.meshes) {
     for (size_t v = 0; v < mesh.joints.size(); ++v) {
-      if (WeightOn(joints, mesh, v) < 0.6f) continue;
-      all.positions.push_back(mesh.positions[v]);
-      all.normals.push_back(mesh.normals[v]);
-      all.joints.push_back(mesh.joints[v]);
-      all.weights.push_back(mesh.weights[v]);
+      if (WeightOn(joints, mesh, v) >= 0.6f) AddPoint(mesh, v, &all);
     }
   }
+  all = Welded(all);
   Mesh thin;
   const size_t step = 1 + all.positions.size() / most;
-  for (size_t v = 0; v < all.positions.size(); v += step) {
-    thin.positions.push_back(all.positions[v]);
-    thin.normals.push_back(all.normals[v]);
-    thin.joints.push_back(all.joints[v]);
-    thin.weights.push_back(all.weights[v]);
-  }
+  for (size_t v = 0; v < all.positions.size(); v += step) AddPoint(all, v, &thin);
   return thin;
 }
 

@@ -69,14 +69,15 @@ TEST(Retarget, FeetStandOnTheGround) {
   }
 }
 
-TEST(Retarget, HandsAreLedOutOfABroadBody) {
+// Arms at rest half down, and broader than that.
+Avatar BroadHuman() {
   Avatar human = MadeHuman({.arm_down_deg = 45});
   AddBox({-0.2f, 0.9f, -0.1f}, {0.2f, 1.4f, 0.1f}, 0.12f, 1, &human.meshes[0]);
-  const Rig rig = RigOf(human);
-  Clip down;
-  down.name = "idle";
-  down.duration_s = 1;
-  down.keys = 2;
+  return human;
+}
+
+Clip ArmsDown(const Avatar& human) {
+  Clip down{"idle", 1, 2, {}};
   for (int k = 0; k < 2; ++k) {
     for (size_t j = 0; j < human.joints.size(); ++j) {
       Transform t = human.joints[j].rest;
@@ -84,10 +85,41 @@ TEST(Retarget, HandsAreLedOutOfABroadBody) {
       down.transforms.push_back(t);
     }
   }
+  return down;
+}
+
+TEST(Retarget, HandsAreLedOutOfABroadBody) {
+  const Avatar human = BroadHuman();
+  const Rig rig = RigOf(human);
+  Clip down = ArmsDown(human);
   const float before = std::max(HandDepth(human, rig, down, kLeft, 2), HandDepth(human, rig, down, kRight, 2));
   ASSERT_GT(before, 0.01f);
   EXPECT_GT(ClearHands(human, rig, &down), 0);
   EXPECT_LT(std::max(HandDepth(human, rig, down, kLeft, 2), HandDepth(human, rig, down, kRight, 2)), 0.01f);
+}
+
+// Files split one body into vertices and meshes in any manner; its arms then hang as they did.
+TEST(Retarget, HandsAreLedOutAlikeHoweverTheBodyIsSplit) {
+  Avatar whole = BroadHuman();
+  for (int i = 0; i < 200; ++i) {
+    const float y = 0.9f + 0.0025f * static_cast<float>(i), x = 0.35f + 0.1f * std::sin(0.7f * static_cast<float>(i));
+    AddBox({0, y, -0.1f}, {x, y, 0.1f}, 0.01f, 1, &whole.meshes[0]);
+  }
+  const Rig rig = RigOf(whole);
+  Avatar split = whole;  // every second vertex in another mesh, and each twice, backwards
+  split.meshes.assign(2, {});
+  const Mesh& mesh = whole.meshes[0];
+  for (int copy = 0; copy < 2; ++copy) {
+    for (size_t v = mesh.positions.size(); v-- > 0;) {
+      Mesh& to = split.meshes[v % 2];
+      to.positions.push_back(mesh.positions[v]);
+      to.normals.push_back(mesh.normals[v]);
+      to.joints.push_back(mesh.joints[v]);
+      to.weights.push_back(mesh.weights[v]);
+    }
+  }
+  Clip of_whole = ArmsDown(whole), of_split = of_whole;
+  EXPECT_EQ(ClearHands(whole, rig, &of_whole), ClearHands(split, rig, &of_split));
 }
 
 TEST(Retarget, KneesBendForwardHoweverHighTheyAreLifted) {
