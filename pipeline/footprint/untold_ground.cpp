@@ -19,7 +19,8 @@ constexpr double kMaxRoofed = 0.6;                    // of a piece lies under s
 constexpr double kMaxHanging = 0.15;         // of its area, walls that hang below it: more than a model's edge has
 constexpr double kMaxHangingOfRising = 0.4;  // or of the walls on it, where a town wall is sunk into a slope
 constexpr double kBare = 0.5;                // of the town: ground alone, on which nothing stands
-constexpr double kMinGround = 0.1;           // of the town, the largest piece
+constexpr double kMinGround = 0.1;           // of the town, the largest piece; of sheets: of all that shows upwards
+constexpr double kSheet = 0.7;               // of an object's area shows upwards: it is no body
 constexpr double kMinBesideLargest = 0.02;   // of that, any other
 constexpr double kEnoughGround = 0.3;        // of the largest piece: the town has ground already
 constexpr double kOnGround_m = 0.15;         // faces so little over it are kerbs and roads, and ground too
@@ -55,7 +56,7 @@ GroundRaster SeenFromAbove(GroundRaster blank, const std::vector<TownObject>& ob
 
 // A piece of surface that one could walk on.
 struct Region {
-  size_t cells = 0, roofed = 0;
+  size_t cells = 0, roofed = 0, of_sheets = 0;
   double rising_m2 = 0, hanging_m2 = 0;  // walls
 };
 
@@ -95,7 +96,8 @@ class Finder {
       max_m_ = {std::max(max_m_.x, o.max_m.x), std::max(max_m_.y, o.max_m.y)};
     }
     town_m2_ = (max_m_.x - min_m_.x) * (max_m_.y - min_m_.y);
-    for (const GroundPatch& patch : town_.ground) known_m2_ += PlanArea(patch.triangles);
+    flat_alone_ = !town_.flat.empty() && town_.flat.size() == town_.ground.size();
+    for (const GroundPatch& patch : town_.ground) known_m2_ += flat_alone_ ? 0 : PlanArea(patch.triangles);
   }
 
   GroundRaster Blank() const {
@@ -122,9 +124,35 @@ class Finder {
   // The lowest face that shows upwards, cell by cell.
   void Draw() {
     surface_ = Blank();
-    ForTriangles([&](const Triangle3& t) {
-      if (ShowsUpwards(t, shown_)) DrawArea(t, &surface_);
-    });
+    sheets_ = Blank();
+    if (flat_alone_)
+      for (const GroundPatch& patch : town_.ground)
+        for (const Triangle3& t : patch.triangles) DrawArea(t, &surface_), DrawArea(t, &sheets_);
+    for (const size_t i : untagged_) {
+      const bool sheet = IsSheet(town_.obstacles[i]);
+      for (const Triangle3& t : town_.obstacles[i].triangles) {
+        if (!ShowsUpwards(t, shown_)) continue;
+        DrawArea(t, &surface_);
+        if (sheet) DrawArea(t, &sheets_);
+      }
+    }
+    shown_m2_ = ShownArea();
+  }
+
+  bool IsSheet(const TownObject& object) const {
+    double all_m2 = 0, upwards_m2 = 0;
+    for (const Triangle3& t : object.triangles) {
+      all_m2 += AreaOf(t);
+      if (ShowsUpwards(t, shown_)) upwards_m2 += AreaOf(t);
+    }
+    return upwards_m2 > kSheet * all_m2;
+  }
+
+  // In plan, however patchy the town is.
+  double ShownArea() const {
+    const auto known = std::count_if(surface_.height_m.begin(), surface_.height_m.end(),
+                                     [](float height_m) { return height_m != kNoHeight; });
+    return static_cast<double>(known) * CellArea();
   }
 
   bool Known(size_t cell) const { return surface_.height_m[cell] != kNoHeight; }
@@ -155,6 +183,7 @@ class Finder {
       if (region == kNone) region = regions_.size(), regions_.emplace_back();
       region_[cell] = region;
       ++regions_[region].cells;
+      if (sheets_.height_m[cell] == surface_.height_m[cell]) ++regions_[region].of_sheets;
     }
   }
 
@@ -193,12 +222,14 @@ class Finder {
     }
   }
 
-  double Area(const Region& region) const {
-    return static_cast<double>(region.cells) * static_cast<double>(surface_.cell_m) *
-           static_cast<double>(surface_.cell_m);
-  }
+  double CellArea() const { return static_cast<double>(surface_.cell_m) * static_cast<double>(surface_.cell_m); }
 
-  bool IsLarge(const Region& region) const { return Area(region) >= kMinGround * town_m2_; }
+  double Area(const Region& region) const { return static_cast<double>(region.cells) * CellArea(); }
+
+  // Streets and meadows that are objects of their own need no town around them to be known; a court within walls does.
+  bool IsLarge(const Region& region) const {
+    return Area(region) >= kMinGround * (2 * region.of_sheets > region.cells ? shown_m2_ : town_m2_);
+  }
 
   bool IsGround(const Region& region) const {
     const bool carries = region.rising_m2 > region.hanging_m2;
@@ -211,8 +242,8 @@ class Finder {
   bool Choose() {
     double largest_m2 = 0;
     for (const Region& region : regions_)
-      if (IsGround(region)) largest_m2 = std::max(largest_m2, Area(region));
-    if (largest_m2 < kMinGround * town_m2_ || known_m2_ > kEnoughGround * largest_m2) return false;
+      if (IsGround(region) && IsLarge(region)) largest_m2 = std::max(largest_m2, Area(region));
+    if (largest_m2 == 0 || known_m2_ > kEnoughGround * largest_m2) return false;
     for (const Region& region : regions_)
       ground_.push_back(IsGround(region) && Area(region) >= kMinBesideLargest * largest_m2);
     return true;
@@ -263,6 +294,7 @@ class Finder {
 
   // Takes the ground out of an object; false where nothing of it is left.
   bool Rest(TownObject* object, GroundPatch* ground) {
+    if (flat_alone_ && !IsSheet(*object)) return true;
     std::vector<Triangle3> rest;
     double all_m2 = 0, rest_m2 = 0;
     for (const Triangle3& t : object->triangles) {
@@ -283,8 +315,9 @@ class Finder {
   Shown shown_ = Shown::kFront;
   TownObjects& town_;
   Point2 min_m_{1e300, 1e300}, max_m_{-1e300, -1e300};
-  double town_m2_ = 0, known_m2_ = 0;
-  GroundRaster surface_;
+  double town_m2_ = 0, known_m2_ = 0, shown_m2_ = 0;
+  bool flat_alone_ = false;  // what ground the town has was taken for it since it is flat: there may be more beside it
+  GroundRaster surface_, sheets_;
   std::vector<size_t> region_;  // of each cell; kNone: of no surface
   std::vector<Region> regions_;
   std::vector<bool> ground_;  // of each region

@@ -61,6 +61,39 @@ TEST(UntoldGround, IsNotLookedForWhereTheTownSaysWhatItIs) {
   }
 }
 
+// Streets, each an object of its own, that rise and fall; houses along them, nothing in between, and far away a chapel:
+// in all a small part of what the town spans.
+TestTown Streets() {
+  TestTown town;
+  for (int i = 0; i < 4; ++i) {
+    const float y = 30 * static_cast<float>(i), fall = 0.5f + 0.3f * static_cast<float>(i % 2);
+    town.Node("object_1" + std::to_string(i), NodeKind::kUntagged)
+        .Quad({0, y, 0}, {60, y, fall}, {60, y + 8, fall}, {0, y + 8, 0});
+    for (int k = 0; k < 4; ++k) {
+      const float x = 15 * static_cast<float>(k);
+      town.Node("h" + std::to_string(4 * i + k), NodeKind::kUntagged).Box({x, y + 8, -0.5f}, {x + 10, y + 16, 6});
+    }
+  }
+  town.Node("object_20", NodeKind::kUntagged).Box({600, 500, 0}, {606, 512, 9});
+  return town;
+}
+
+TEST(UntoldGround, IsFoundInStreetsOfTheirOwnHoweverPatchyTheTownIs) {
+  const TownObjects objects = SortTown(Streets().scene, 1);
+  EXPECT_NEAR(GroundArea(objects), 4 * 60 * 8, 1);
+  EXPECT_EQ(objects.obstacles.size(), 17u);
+}
+
+// Water is flat, and ground for that; the streets beside it are not.
+TEST(UntoldGround, IsFoundBesideFlatWater) {
+  TestTown town = Streets();
+  town.Node("object_7", NodeKind::kUntagged).Quad({0, -60, -0.4f}, {100, -60, -0.4f}, {100, -2, -0.4f}, {0, -2, -0.4f});
+  const TownObjects objects = SortTown(town.scene, 1);
+  EXPECT_EQ(objects.flat, std::vector<std::string>{"object_7"});
+  EXPECT_NEAR(GroundArea(objects), 100 * 58 + 4 * 60 * 8, 1);
+  EXPECT_EQ(objects.obstacles.size(), 17u);
+}
+
 // A mirrored model whose faces all show their backs: the ground is the block's upper side, not the lower that then
 // shows upwards.
 TEST(UntoldGround, OfATownInsideOutIsItsUpperSide) {
