@@ -286,8 +286,8 @@ class Finder {
       TownObject& object = town_.obstacles[i];
       if (!asked[i] || Rest(&object, &ground)) left.push_back(std::move(object));
     }
-    if (ground.triangles.empty()) return false;
     town_.obstacles = std::move(left);
+    if (ground.triangles.empty()) return false;
     town_.ground.push_back(std::move(ground));
     return true;
   }

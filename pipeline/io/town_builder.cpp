@@ -17,7 +17,7 @@ namespace flaneur {
 namespace {
 
 constexpr double kFarFromOrigin_m = 10'000;  // floats there are coarser than a millimetre
-constexpr double kFarthest_m = 1e8;
+constexpr double kFarthest = 1e11;  // of any unit: 100,000 km in millimetres
 constexpr double kMost_deg = 360;
 constexpr double kBesideArea_deg = 1;      // a town may lie so far beside the area of its system
 constexpr size_t kMaxRingsAsked = 20'000;  // for their right angles
@@ -303,9 +303,9 @@ Error TownBuilder::MapToMetres(const CityCoordinates& coordinates, std::string* 
 Error TownBuilder::CheckReach() const {
   for (const Triangle& t : triangles_)
     for (const Point3& p : {t.a, t.b, t.c})
-      if (!(std::abs(p.x) < kFarthest_m && std::abs(p.y) < kFarthest_m && std::abs(p.z) < kFarthest_m))
+      if (!(std::abs(p.x) < kFarthest && std::abs(p.y) < kFarthest && std::abs(p.z) < kFarthest))
         return Fail("'" + At(nodes_, t.node).name +
-                    "' reaches farther than any map: a coordinate is beyond 100,000 km");
+                    "' reaches farther than any map: a coordinate is beyond 100,000 km in millimetres");
   return Ok();
 }
 

@@ -48,7 +48,7 @@ class TownBuilder {
   // used, else of degrees by right angles, of metres by houses that are not inside out, and by `coordinates` only where
   // these are silent. Coordinates far from zero are moved by whole hundreds of metres: see Scene::origin_m. Nodes
   // without triangles stay where something hangs on them. Errors: nothing but polygons without area, degrees in a
-  // system of metres or outside of the system's area, a coordinate beyond 100,000 km; each names `file`.
+  // system of metres or outside of the system's area, a coordinate beyond 1e11; each names `file`.
   Error Finish(const std::string& file, const CityCoordinates& coordinates, Scene* scene, std::string* source_system,
                std::vector<std::string>* warnings);
 

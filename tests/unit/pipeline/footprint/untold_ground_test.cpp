@@ -84,6 +84,17 @@ TEST(UntoldGround, IsFoundInStreetsOfTheirOwnHoweverPatchyTheTownIs) {
   EXPECT_EQ(objects.obstacles.size(), 17u);
 }
 
+TEST(UntoldGround, LeavesHousesOnAPlaneAsTheyAre) {
+  TestTown town;
+  town.Node("object_1", NodeKind::kUntagged).Quad({0, 0, 0}, {60, 0, 0}, {60, 60, 0}, {0, 60, 0});
+  for (const float x : {10.0f, 35.0f})
+    town.Node("object_" + std::to_string(x), NodeKind::kUntagged).Box({x, 20, 0}, {x + 10, 30, 6});
+  const TownObjects objects = SortTown(town.scene, 1);
+  EXPECT_NEAR(GroundArea(objects), 60 * 60, 1);
+  ASSERT_EQ(objects.obstacles.size(), 2u);
+  for (const TownObject& house : objects.obstacles) EXPECT_EQ(house.triangles.size(), 12u);
+}
+
 // Water is flat, and ground for that; the streets beside it are not.
 TEST(UntoldGround, IsFoundBesideFlatWater) {
   TestTown town = Streets();
