@@ -172,6 +172,19 @@ class Georeference(ProgramTest):
                 self.assert_succeeds(result)
                 self.assertEqual(["neighbouring zone" in line for line in result.stderr.splitlines()], [True] if warned else [])
 
+    def test_a_map_in_millimetres(self):
+        house = [(u, v, w) for w in (0, 7000) for u, v in ((0, 0), (8000, 0), (8000, 6000), (0, 6000))]
+        faces = [(1, 4, 3, 2), (5, 6, 7, 8), (1, 2, 6, 5), (2, 3, 7, 6), (3, 4, 8, 7), (4, 1, 5, 8)]
+        town, out = self.folder / "town.obj", self.folder / "obstacles.geojson"
+        town.write_text("".join(f"v {350e6 + x} {5650e6 + y} {z}\n" for x, y, z in house) + "o house\n" +
+                        "".join("f " + " ".join(map(str, face)) + "\n" for face in faces))
+        result = run("flaneur", "footprints", town, "-o", out, "--scale", 0.001, "--up", "z", "--clearance-m", 0)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        found = json.loads(out.read_text())
+        east, north = found["flaneur"]["origin_m"]
+        corners = {(round(x + east), round(y + north)) for x, y in points(found)}
+        self.assertEqual(corners, {(350000 + x, 5650000 + y) for x in (0, 8) for y in (0, 6)})
+
     def test_feet_for_metres(self):
         feet = 1 / 0.3048
         self.assert_fails(self.footprints(city(self.folder / "town.json", (603900 * feet, 5780000 * feet))), "EPSG:25832", "outside the area")
