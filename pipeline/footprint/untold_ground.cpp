@@ -226,9 +226,16 @@ class Finder {
 
   double Area(const Region& region) const { return static_cast<double>(region.cells) * CellArea(); }
 
+  bool IsOfSheets(const Region& region) const { return 2 * region.of_sheets > region.cells; }
+
+  // A meadow beside the town, on which nothing stands.
+  bool IsBareSheet(const Region& region) const {
+    return IsOfSheets(region) && region.rising_m2 + region.hanging_m2 == 0 && region.roofed == 0;
+  }
+
   // Streets and meadows that are objects of their own need no town around them to be known; a court within walls does.
   bool IsLarge(const Region& region) const {
-    return Area(region) >= kMinGround * (2 * region.of_sheets > region.cells ? shown_m2_ : town_m2_);
+    return Area(region) >= kMinGround * (IsOfSheets(region) ? shown_m2_ : town_m2_);
   }
 
   bool IsGround(const Region& region) const {
@@ -245,7 +252,7 @@ class Finder {
       if (IsGround(region) && IsLarge(region)) largest_m2 = std::max(largest_m2, Area(region));
     if (largest_m2 == 0 || known_m2_ > kEnoughGround * largest_m2) return false;
     for (const Region& region : regions_)
-      ground_.push_back(IsGround(region) && Area(region) >= kMinBesideLargest * largest_m2);
+      ground_.push_back((IsGround(region) || IsBareSheet(region)) && Area(region) >= kMinBesideLargest * largest_m2);
     return true;
   }
 

@@ -84,6 +84,14 @@ TEST(UntoldGround, IsFoundInStreetsOfTheirOwnHoweverPatchyTheTownIs) {
   EXPECT_EQ(objects.obstacles.size(), 17u);
 }
 
+TEST(UntoldGround, IsAMeadowToo) {
+  TestTown town = Streets();
+  town.Node("object_8", NodeKind::kUntagged).Quad({100, 0, 2}, {120, 0, 3}, {120, 40, 3.5f}, {100, 40, 2});
+  const TownObjects objects = SortTown(town.scene, 1);
+  EXPECT_NEAR(GroundArea(objects), 4 * 60 * 8 + 20 * 40, 1);
+  EXPECT_EQ(objects.obstacles.size(), 17u);
+}
+
 TEST(UntoldGround, LeavesHousesOnAPlaneAsTheyAre) {
   TestTown town;
   town.Node("object_1", NodeKind::kUntagged).Quad({0, 0, 0}, {60, 0, 0}, {60, 60, 0}, {0, 60, 0});
