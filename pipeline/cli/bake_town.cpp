@@ -216,6 +216,13 @@ void ReportFindings(const std::vector<Finding>& findings, StageReport* stage, Ba
   stage->figures = {{"errors", errors}, {"warnings", warnings}};
 }
 
+std::string ThinCrowd(const Baking& baking) {
+  const TourSettings& s = baking.settings;
+  if (!s.painting_file.file.empty()) return {};
+  return DoubtOfThinCrowd(baking.parts.footprints, baking.parts.ground, baking.parts.places, s.crowd.people,
+                          static_cast<float>(CheckOptions{}.person_radius_m));
+}
+
 // Findings do not stop a bake: the designer reads them in the report and decides.
 Error CheckTown(Baking* baking, StageReport* report, Warnings* warnings) {
   BakeReport* whole = &baking->report;
@@ -237,6 +244,7 @@ Error CheckTown(Baking* baking, StageReport* report, Warnings* warnings) {
   for (std::string& nobody : PlacesNobodyReaches(parts.footprints, parts.ground, parts.path, parts.places,
                                                  static_cast<float>(options.person_radius_m)))
     warnings->push_back(std::move(nobody));
+  if (std::string thin = ThinCrowd(*baking); !thin.empty()) warnings->push_back(std::move(thin));
   ReportFindings(map.findings, report, whole);
   TemporaryFolder folder;
   if (Error e = folder.Create("flaneur_map_")) return e;

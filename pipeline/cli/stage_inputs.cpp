@@ -150,7 +150,7 @@ std::string FootprintsInputs(const TourSettings& s, const std::string& shape_inp
 
 std::string CheckInputs(const TourSettings& s, const std::string& footprints_inputs) {
   Fingerprint print;
-  print.Add("check").Add(footprints_inputs).Add(s.name);
+  print.Add("check").Add(footprints_inputs).Add(s.name).Add(s.crowd.people).Add(s.painting_file.file.empty());
   for (const Place& place : s.places) {
     print.Add(place.name).Add(place.kind).Add(place.position_m.x).Add(place.position_m.y).Add(place.width_m);
   }

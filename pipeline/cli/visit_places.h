@@ -1,4 +1,5 @@
-// Whether the tour's stops and places are where somebody can be, as the player finds it when it starts.
+// Whether the tour's stops and places are where somebody can be, as the player finds it when it starts, and whether
+// anybody is met there.
 #pragma once
 #include <string>
 #include <vector>
@@ -13,5 +14,10 @@ namespace flaneur {
 std::vector<std::string> PlacesNobodyReaches(const Footprints& footprints, const GroundRaster& ground,
                                              const std::vector<TourStop>& stops, const std::vector<Place>& places,
                                              float person_radius_m);
+
+// A line where a crowd that goes anywhere, since no places tell where, is so thin over the walkable ground that one
+// hardly meets anybody; else empty. A crowd of fewer than ten is taken to be meant so.
+std::string DoubtOfThinCrowd(const Footprints& footprints, const GroundRaster& ground, const std::vector<Place>& places,
+                             int people, float person_radius_m);
 
 }  // namespace flaneur

@@ -68,5 +68,20 @@ TEST(VisitPlaces, ATownWithoutRoomForAnybodyIsOneLine) {
   EXPECT_EQ(PlacesNobodyReaches({}, {}, {StopAt({1, 1})}, {PlaceAt("well", "goal", {1, 1})}, 0.3f).size(), 1u);
 }
 
+// Of a square kilometre.
+TEST(VisitPlaces, ACrowdThatIsTooThinToBeMetIsSpokenOf) {
+  GroundRaster wide = Square();
+  wide.cell_m = 5;
+  wide.columns = wide.rows = 200;
+  wide.height_m.assign(200 * 200, 0);
+  wide.kind.assign(200 * 200, 3);
+  const std::string said = DoubtOfThinCrowd({}, wide, {}, 120, 0.3f);
+  EXPECT_NE(said.find("ha to walk on are a lot for 120 people"), std::string::npos) << said;
+  EXPECT_EQ(DoubtOfThinCrowd({}, wide, {PlaceAt("well", "goal", {0, 0})}, 120, 0.3f), "");
+  EXPECT_EQ(DoubtOfThinCrowd({}, wide, {}, 1000, 0.3f), "");
+  EXPECT_EQ(DoubtOfThinCrowd({}, wide, {}, 1, 0.3f), "") << "meant so";
+  EXPECT_EQ(DoubtOfThinCrowd(HouseAndYard(), Square(), {}, 30, 0.3f), "");
+}
+
 }  // namespace
 }  // namespace flaneur
