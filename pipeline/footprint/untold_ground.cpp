@@ -20,7 +20,7 @@ constexpr double kMaxHanging = 0.15;         // of its area, walls that hang bel
 constexpr double kMaxHangingOfRising = 0.4;  // or of the walls on it, where a town wall is sunk into a slope
 constexpr double kBare = 0.5;                // of the town: ground alone, on which nothing stands
 constexpr double kMinGround = 0.1;           // of the town, the largest piece; of sheets: of all that shows upwards
-constexpr double kSheet = 0.7;               // of an object's area shows upwards: it is no body
+constexpr double kSheet = 0.7;               // of what hangs together shows upwards: it is no body
 constexpr double kMinBesideLargest = 0.02;   // of that, any other
 constexpr double kEnoughGround = 0.3;        // of the largest piece: the town has ground already
 constexpr double kOnGround_m = 0.15;         // faces so little over it are kerbs and roads, and ground too
@@ -129,23 +129,35 @@ class Finder {
       for (const GroundPatch& patch : town_.ground)
         for (const Triangle3& t : patch.triangles) DrawArea(t, &surface_), DrawArea(t, &sheets_);
     for (const size_t i : untagged_) {
-      const bool sheet = IsSheet(town_.obstacles[i]);
-      for (const Triangle3& t : town_.obstacles[i].triangles) {
-        if (!ShowsUpwards(t, shown_)) continue;
-        DrawArea(t, &surface_);
-        if (sheet) DrawArea(t, &sheets_);
+      const std::vector<Triangle3>& triangles = town_.obstacles[i].triangles;
+      const std::vector<bool> of_sheets = AreOfSheets(triangles);
+      for (size_t t = 0; t < triangles.size(); ++t) {
+        if (!ShowsUpwards(triangles[t], shown_)) continue;
+        DrawArea(triangles[t], &surface_);
+        if (of_sheets[t]) DrawArea(triangles[t], &sheets_);
       }
     }
     shown_m2_ = ShownArea();
   }
 
-  bool IsSheet(const TownObject& object) const {
-    double all_m2 = 0, upwards_m2 = 0;
-    for (const Triangle3& t : object.triangles) {
-      all_m2 += AreaOf(t);
-      if (ShowsUpwards(t, shown_)) upwards_m2 += AreaOf(t);
+  // Of each triangle, whether what it hangs together with is a sheet: an object, or a part where things are joined.
+  std::vector<bool> AreOfSheets(const std::vector<Triangle3>& triangles) const {
+    const WeldedShell shell = Weld(triangles);
+    DisjointSets parts(shell.points.size());
+    for (const Corners& t : shell.triangles) parts.Join(t[0], t[1]), parts.Join(t[0], t[2]);
+    std::vector<double> all_m2(shell.points.size(), 0), upwards_m2 = all_m2;
+    for (size_t i = 0; i < shell.triangles.size(); ++i) {
+      const Triangle3& t = triangles[shell.source[i]];
+      const size_t part = parts.Root(shell.triangles[i][0]);
+      all_m2[part] += AreaOf(t);
+      if (ShowsUpwards(t, shown_)) upwards_m2[part] += AreaOf(t);
     }
-    return upwards_m2 > kSheet * all_m2;
+    std::vector<bool> of_sheets(triangles.size(), false);
+    for (size_t i = 0; i < shell.triangles.size(); ++i) {
+      const size_t part = parts.Root(shell.triangles[i][0]);
+      of_sheets[shell.source[i]] = upwards_m2[part] > kSheet * all_m2[part];
+    }
+    return of_sheets;
   }
 
   // In plan, however patchy the town is.
@@ -301,11 +313,13 @@ class Finder {
 
   // Takes the ground out of an object; false where nothing of it is left.
   bool Rest(TownObject* object, GroundPatch* ground) {
-    if (flat_alone_ && !IsSheet(*object)) return true;
+    std::vector<bool> asked(object->triangles.size(), true);
+    if (flat_alone_) asked = AreOfSheets(object->triangles);
     std::vector<Triangle3> rest;
     double all_m2 = 0, rest_m2 = 0;
-    for (const Triangle3& t : object->triangles) {
-      const bool on = IsOnGround(t);
+    for (size_t i = 0; i < object->triangles.size(); ++i) {
+      const Triangle3& t = object->triangles[i];
+      const bool on = asked[i] && IsOnGround(t);
       all_m2 += AreaOf(t), rest_m2 += on ? 0 : AreaOf(t);
       (on ? ground->triangles : rest).push_back(t);
     }

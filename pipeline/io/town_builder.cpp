@@ -17,7 +17,7 @@ namespace flaneur {
 namespace {
 
 constexpr double kFarFromOrigin_m = 10'000;  // floats there are coarser than a millimetre
-constexpr double kFarthest = 1e11;  // of any unit: 100,000 km in millimetres
+constexpr double kFarthest = 1e11;           // of any unit: 100,000 km in millimetres
 constexpr double kMost_deg = 360;
 constexpr double kBesideArea_deg = 1;      // a town may lie so far beside the area of its system
 constexpr size_t kMaxRingsAsked = 20'000;  // for their right angles

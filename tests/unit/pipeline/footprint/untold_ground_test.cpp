@@ -61,27 +61,32 @@ TEST(UntoldGround, IsNotLookedForWhereTheTownSaysWhatItIs) {
   }
 }
 
-// Streets, each an object of its own, that rise and fall; houses along them, nothing in between, and far away a chapel:
-// in all a small part of what the town spans.
-TestTown Streets() {
+// Streets that rise and fall, each an object of its own or all things in one mesh; houses along them, nothing in
+// between, and far away a chapel: in all a small part of what the town spans.
+TestTown Streets(bool one_mesh = false) {
   TestTown town;
+  const auto node = [&](const std::string& name) -> TestTown& {
+    if (!one_mesh || town.scene.nodes.empty()) town.Node(name, NodeKind::kUntagged);
+    return town;
+  };
   for (int i = 0; i < 4; ++i) {
     const float y = 30 * static_cast<float>(i), fall = 0.5f + 0.3f * static_cast<float>(i % 2);
-    town.Node("object_1" + std::to_string(i), NodeKind::kUntagged)
-        .Quad({0, y, 0}, {60, y, fall}, {60, y + 8, fall}, {0, y + 8, 0});
+    node("object_1" + std::to_string(i)).Quad({0, y, 0}, {60, y, fall}, {60, y + 8, fall}, {0, y + 8, 0});
     for (int k = 0; k < 4; ++k) {
       const float x = 15 * static_cast<float>(k);
-      town.Node("h" + std::to_string(4 * i + k), NodeKind::kUntagged).Box({x, y + 8, -0.5f}, {x + 10, y + 16, 6});
+      node("h" + std::to_string(4 * i + k)).Box({x, y + 8, -0.5f}, {x + 10, y + 16, 6});
     }
   }
-  town.Node("object_20", NodeKind::kUntagged).Box({600, 500, 0}, {606, 512, 9});
+  node("object_20").Box({600, 500, 0}, {606, 512, 9});
   return town;
 }
 
 TEST(UntoldGround, IsFoundInStreetsOfTheirOwnHoweverPatchyTheTownIs) {
-  const TownObjects objects = SortTown(Streets().scene, 1);
-  EXPECT_NEAR(GroundArea(objects), 4 * 60 * 8, 1);
-  EXPECT_EQ(objects.obstacles.size(), 17u);
+  for (const bool one_mesh : {false, true}) {
+    const TownObjects objects = SortTown(Streets(one_mesh).scene, 1);
+    EXPECT_NEAR(GroundArea(objects), 4 * 60 * 8, 1) << one_mesh;
+    EXPECT_EQ(objects.obstacles.size(), one_mesh ? 1u : 17u);
+  }
 }
 
 TEST(UntoldGround, IsAMeadowToo) {
