@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "pipeline/footprint/constants.h"
 #include "pipeline/footprint/disjoint_sets.h"
@@ -130,7 +131,7 @@ class Finder {
         for (const Triangle3& t : patch.triangles) DrawArea(t, &surface_), DrawArea(t, &sheets_);
     for (const size_t i : untagged_) {
       const std::vector<Triangle3>& triangles = town_.obstacles[i].triangles;
-      const std::vector<bool> of_sheets = AreOfSheets(triangles);
+      const std::vector<bool> of_sheets = AreOfSheets(i);
       for (size_t t = 0; t < triangles.size(); ++t) {
         if (!ShowsUpwards(triangles[t], shown_)) continue;
         DrawArea(triangles[t], &surface_);
@@ -140,23 +141,36 @@ class Finder {
     shown_m2_ = ShownArea();
   }
 
-  // Of each triangle, whether what it hangs together with is a sheet: an object, or a part where things are joined.
-  std::vector<bool> AreOfSheets(const std::vector<Triangle3>& triangles) const {
+  // What hangs together in an object: of each triangle the first of its part; kNone: it repeats another.
+  const std::vector<size_t>& PartsOf(size_t object) {
+    std::vector<size_t>& parts = parts_[object];
+    const std::vector<Triangle3>& triangles = town_.obstacles[object].triangles;
+    if (parts.size() == triangles.size()) return parts;
     const WeldedShell shell = Weld(triangles);
-    DisjointSets parts(shell.points.size());
-    for (const Corners& t : shell.triangles) parts.Join(t[0], t[1]), parts.Join(t[0], t[2]);
-    std::vector<double> all_m2(shell.points.size(), 0), upwards_m2 = all_m2;
+    DisjointSets sets(shell.points.size());
+    for (const Corners& t : shell.triangles) sets.Join(t[0], t[1]), sets.Join(t[0], t[2]);
+    std::vector<size_t> first(shell.points.size(), kNone);
+    parts.assign(triangles.size(), kNone);
     for (size_t i = 0; i < shell.triangles.size(); ++i) {
-      const Triangle3& t = triangles[shell.source[i]];
-      const size_t part = parts.Root(shell.triangles[i][0]);
-      all_m2[part] += AreaOf(t);
-      if (ShowsUpwards(t, shown_)) upwards_m2[part] += AreaOf(t);
+      size_t& part = first[sets.Root(shell.triangles[i][0])];
+      if (part == kNone) part = shell.source[i];
+      parts[shell.source[i]] = part;
     }
-    std::vector<bool> of_sheets(triangles.size(), false);
-    for (size_t i = 0; i < shell.triangles.size(); ++i) {
-      const size_t part = parts.Root(shell.triangles[i][0]);
-      of_sheets[shell.source[i]] = upwards_m2[part] > kSheet * all_m2[part];
+    return parts;
+  }
+
+  // Of each triangle of an object, whether its part is a sheet.
+  std::vector<bool> AreOfSheets(size_t object) {
+    const std::vector<size_t>& parts = PartsOf(object);
+    const std::vector<Triangle3>& triangles = town_.obstacles[object].triangles;
+    std::vector<double> all_m2(triangles.size(), 0), upwards_m2 = all_m2;
+    for (size_t t = 0; t < triangles.size(); ++t) {
+      if (parts[t] == kNone) continue;
+      all_m2[parts[t]] += AreaOf(triangles[t]);
+      if (ShowsUpwards(triangles[t], shown_)) upwards_m2[parts[t]] += AreaOf(triangles[t]);
     }
+    std::vector<bool> of_sheets;
+    for (const size_t part : parts) of_sheets.push_back(part != kNone && upwards_m2[part] > kSheet * all_m2[part]);
     return of_sheets;
   }
 
@@ -303,7 +317,7 @@ class Finder {
     for (const size_t i : untagged_) asked[i] = true;
     for (size_t i = 0; i < town_.obstacles.size(); ++i) {
       TownObject& object = town_.obstacles[i];
-      if (!asked[i] || Rest(&object, &ground)) left.push_back(std::move(object));
+      if (!asked[i] || Rest(i, &ground)) left.push_back(std::move(object));
     }
     town_.obstacles = std::move(left);
     if (ground.triangles.empty()) return false;
@@ -312,9 +326,10 @@ class Finder {
   }
 
   // Takes the ground out of an object; false where nothing of it is left.
-  bool Rest(TownObject* object, GroundPatch* ground) {
+  bool Rest(size_t index, GroundPatch* ground) {
+    TownObject* object = &town_.obstacles[index];
     std::vector<bool> asked(object->triangles.size(), true);
-    if (flat_alone_) asked = AreOfSheets(object->triangles);
+    if (flat_alone_) asked = AreOfSheets(index);
     std::vector<Triangle3> rest;
     double all_m2 = 0, rest_m2 = 0;
     for (size_t i = 0; i < object->triangles.size(); ++i) {
@@ -341,7 +356,8 @@ class Finder {
   GroundRaster surface_, sheets_;
   std::vector<size_t> region_;  // of each cell; kNone: of no surface
   std::vector<Region> regions_;
-  std::vector<bool> ground_;  // of each region
+  std::map<size_t, std::vector<size_t>> parts_;  // of obstacles, as far as they are known
+  std::vector<bool> ground_;                     // of each region
 };
 
 }  // namespace
