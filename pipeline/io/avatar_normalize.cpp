@@ -182,10 +182,11 @@ void PlaceClips(const Mesh& whole, const std::vector<NamedBone>& told, Avatar* a
   }
   walk_ground += dip;
   for (Clip& clip : avatar->clips) {
-    const auto keys = BodyOverClip(*avatar, clip, whole);
     const bool walks = clip.name == "walk", stands = walks || clip.name == "idle" || clip.name == "talk";
-    const float lowest = hangs ? Lowest(BodyOverClip(*avatar, clip, feet)) : Lowest(keys);
-    const float ground = !stands ? walk_ground : lowest + (walks ? dip : 0);
+    std::vector<std::vector<Vec3>> keys;  // of the body, where it is asked
+    if (!human || (stands && !hangs)) keys = BodyOverClip(*avatar, clip, whole);
+    float ground = walk_ground;
+    if (stands) ground = (hangs ? Lowest(BodyOverClip(*avatar, clip, feet)) : Lowest(keys)) + (walks ? dip : 0);
     Vec3 center =
         human ? HipsOver(rig.humanoid, avatar->joints, clip) : MedianOf(Trunk(keys, ground, avatar->height_m));
     const bool strays = Length(center) > (stands ? kStrays : kElsewhere) * avatar->height_m;
