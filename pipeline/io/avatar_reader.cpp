@@ -552,9 +552,10 @@ Error AvatarReader::FitClip(const ChosenClip& chosen, const Rig* rig, const std:
           " joints have names of its");
     }
   }
-  const Clip* const walk = FindClip(*avatar_, "walk");
-  if (rig != nullptr && clips_.shipped == chosen.file && walk != nullptr && Sits(*rig, *walk))
-    KeepSeated(*rig, *walk, &made.clip);
+  if (const Clip* const walk = FindClip(*avatar_, "walk"); rig != nullptr && walk != nullptr) {
+    if (clips_.shipped == chosen.file && Sits(*rig, *walk)) KeepSeated(*rig, *walk, &made.clip);
+    if (!same || slides) TurnClip(HeadingOf(*rig, *walk), rig->joints, &made.clip);
+  }
   made.clip.name = chosen.name;
   avatar_->clips.push_back(std::move(made.clip));
   return Ok();

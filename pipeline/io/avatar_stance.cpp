@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "pipeline/core/rotation.h"
+#include "pipeline/rig/clip_loop.h"
 #include "pipeline/rig/rig.h"
 #include "runtime/base/array.h"
 #include "runtime/base/text.h"
@@ -14,29 +15,12 @@ namespace {
 
 constexpr float kUpright_rad = 0.9f;  // a skeleton further off vertical than this lies
 constexpr float kHeadJoint = 0.87f;   // of a person's height: where the head's joint is
-constexpr float kSways_rad = 0.4f;    // a body's turn over a walk, to one side at most
-constexpr int kPoses = 16;            // of a walk, whose mean tells how it stands
 
 bool Stance(const Avatar& avatar, const std::vector<NamedBone>& told, Humanoid* h, Vec3* up, Vec3* forward) {
   const Pose bind = BindPose(avatar.joints);
   std::string why;
   return FindHumanoid(avatar.joints, bind.positions, told, h, &why) && !h->quadruped &&
          FindStance(*h, bind.positions, up, forward);
-}
-
-// Mean over the walk. False where its poses differ too much to tell.
-bool StanceOfClip(const Avatar& avatar, const Humanoid& h, const Clip& clip, Vec3* up, Vec3* forward) {
-  Vec3 ups, forwards;
-  for (int i = 0; i < kPoses; ++i) {
-    const size_t key = static_cast<size_t>(i * (clip.keys - 1) / kPoses);
-    const Pose pose = PoseOf(avatar.joints, clip.transforms.data() + key * avatar.joints.size());
-    Vec3 u, f;
-    if (FindStance(h, pose.positions, &u, &f)) ups = ups + u, forwards = forwards + f;
-  }
-  if (Length(ups) < 0.7f * kPoses) return false;
-  *up = Normalized(ups);
-  *forward = Normalized(forwards);
-  return true;
 }
 
 // By quarters, so that +Y is up; the figure's facing comes nearest to +Z.
@@ -73,16 +57,6 @@ Error ReadAxis(const std::string& text, Vec3* axis) {
   return Fail("'" + OneLine(text) + "' is no direction; one of x, -x, y, -y, z and -z is");
 }
 
-void TurnClip(Quat turn, const Avatar& avatar, Clip* clip) {
-  const size_t joints = avatar.joints.size();
-  for (size_t i = 0; i < clip->transforms.size(); ++i) {
-    if (avatar.joints[i % joints].parent >= 0) continue;
-    Transform& t = clip->transforms[i];
-    t.translation = Rotated(turn, t.translation);
-    t.rotation = Normalized(Product(turn, t.rotation));
-  }
-}
-
 void TurnFigure(Quat turn, bool clips, Avatar* avatar, Mesh* body) {
   const Mat4 matrix = FromTranslationRotationScale({}, turn, {1, 1, 1});
   const auto turn_mesh = [&](Mesh* mesh) {
@@ -98,7 +72,7 @@ void TurnFigure(Quat turn, bool clips, Avatar* avatar, Mesh* body) {
     joint.rest.rotation = Normalized(Product(turn, joint.rest.rotation));
   }
   if (!clips) return;
-  for (Clip& clip : avatar->clips) TurnClip(turn, *avatar, &clip);
+  for (Clip& clip : avatar->clips) TurnClip(turn, avatar->joints, &clip);
 }
 
 Error StandUp(const std::string& up_text, const std::string& forward_text, const std::vector<NamedBone>& told,
@@ -121,9 +95,9 @@ Error StandUp(const std::string& up_text, const std::string& forward_text, const
                         " in its bind pose; it is stood up: set up and forward to have it otherwise");
   }
   const Clip* walk = FindClip(*avatar, "walk");
-  if (walk == nullptr || !StanceOfClip(*avatar, h, *walk, &up, &forward) || !Lies(up)) return Ok();
+  if (walk == nullptr || !FindStance(h, avatar->joints, *walk, &up, &forward) || !Lies(up)) return Ok();
   const Quat turn = QuarterTurn(up, forward);
-  for (Clip& clip : avatar->clips) TurnClip(turn, *avatar, &clip);
+  for (Clip& clip : avatar->clips) TurnClip(turn, avatar->joints, &clip);
   warnings->push_back(std::string("the figure ") + (up.y < -0.6f ? "stands on its head" : "lies") +
                       " in its walk; its clips are stood up: set up and forward to have it otherwise");
   return Ok();
@@ -133,7 +107,7 @@ bool FacingInWalk(const Avatar& avatar, const std::vector<NamedBone>& told, cons
                   bool* by_shape) {
   Humanoid h;
   Vec3 up, bound, walks;
-  if (!Stance(avatar, told, &h, &up, &bound) || !StanceOfClip(avatar, h, walk, &up, &walks)) return false;
+  if (!Stance(avatar, told, &h, &up, &bound) || !FindStance(h, avatar.joints, walk, &up, &walks)) return false;
   bound.y = walks.y = 0;
   *by_shape = h.by_shape;
   *forward = Normalized(AngleBetween(bound, walks) < kSways_rad ? bound : walks);

@@ -14,7 +14,6 @@ Error ReadAxis(const std::string& text, Vec3* axis);
 
 // Turns everything about the origin: bind pose, rest pose and, where `clips`, all clips.
 void TurnFigure(Quat turn, bool clips, Avatar* avatar, Mesh* body);
-void TurnClip(Quat turn, const Avatar& avatar, Clip* clip);
 
 // Stands the figure up: by `up` and `forward` where given, else by its skeleton, the bind pose and the clips each as
 // they need it, by quarters. A bind pose or walk that lies or stands on its head is turned, with a warning; one that

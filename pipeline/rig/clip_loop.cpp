@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "pipeline/core/rotation.h"
 #include "runtime/base/array.h"
 
 namespace flaneur {
@@ -110,6 +111,15 @@ void ShiftClip(const std::vector<Joint>& joints, Clip* clip, int key, Vec3 by) {
 
 void ShiftClip(const std::vector<Joint>& joints, Clip* clip, Vec3 by) {
   for (int k = 0; k < clip->keys; ++k) ShiftClip(joints, clip, k, by);
+}
+
+void TurnClip(Quat turn, const std::vector<Joint>& joints, Clip* clip) {
+  for (size_t i = 0; i < clip->transforms.size(); ++i) {
+    if (joints[i % joints.size()].parent >= 0) continue;
+    Transform& t = clip->transforms[i];
+    t.translation = Rotated(turn, t.translation);
+    t.rotation = Normalized(Product(turn, t.rotation));
+  }
 }
 
 // Takes even horizontal travel out of the clip; returns its velocity.

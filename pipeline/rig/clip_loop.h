@@ -18,6 +18,9 @@ std::vector<Vec3> JointPositions(const std::vector<Joint>& joints, const Clip& c
 void ShiftClip(const std::vector<Joint>& joints, Clip* clip, int key, Vec3 by);
 void ShiftClip(const std::vector<Joint>& joints, Clip* clip, Vec3 by);
 
+// Turns the whole figure about the origin.
+void TurnClip(Quat turn, const std::vector<Joint>& joints, Clip* clip);
+
 // Takes even horizontal travel out of the clip; returns its velocity. `height`: of the figure; less than a twentieth of
 // it is sway. `axis`: the vertical.
 Vec3 RemoveTravel(const std::vector<Joint>& joints, float height, Clip* clip);

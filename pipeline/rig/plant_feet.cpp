@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "pipeline/rig/clip_loop.h"
 #include "runtime/base/array.h"
 
 namespace flaneur {
@@ -47,6 +48,7 @@ bool PlantFeet(const Rig& rig, Retargeted* walk) {
     if (!stepping[joint])
       planted.clip.transforms[i] = walk->clip.transforms[std::min(key, last) * rig.joints.size() + joint];
   }
+  TurnClip(HeadingOf(rig, walk->clip), rig.joints, &planted.clip);
   planted.clip.name = walk->clip.name;
   *walk = std::move(planted);
   return true;

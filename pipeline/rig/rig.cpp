@@ -14,7 +14,9 @@ constexpr float kSoleBand = 0.05f;      // of the leg's length, above its lowest
 constexpr size_t kSoleDirections = 16;  // that the sole's outline is kept in
 constexpr std::array<float, 6> kPitches_deg{-90, -60, -35, 35, 60, 90};  // in which the foot's tips are looked for
 constexpr float kAnkleHeight = 0.09f;                                    // of the leg's length, where nothing tells
-constexpr float kShortestLeg = 0.2f;                                     // of the trunk's length
+constexpr int kPoses = 16;                                               // of a clip, whose mean tells how it stands
+constexpr float kUpright = 0.6f;                                 // of 1: how far up the trunk of who walks points
+constexpr float kShortestLeg = 0.2f;                             // of the trunk's length
 constexpr float kMinAnkle = 0.03f, kMaxAnkle = 0.25f;            // of the leg's length: where y = 0 may be the ground
 constexpr float kBall = 0.19f, kToeTip = 0.27f, kHeel = -0.06f;  // of the leg's length, before the ankle
 
@@ -325,6 +327,29 @@ Pose PoseAt(const Rig& rig, const Clip& clip, int key) {
   Pose pose = PoseOf(rig.joints, clip.transforms.data() + static_cast<size_t>(key) * rig.joints.size());
   TurnPose(rig.turn, &pose);
   return pose;
+}
+
+bool FindStance(const Humanoid& humanoid, const std::vector<Joint>& joints, const Clip& clip, Vec3* up, Vec3* forward) {
+  Vec3 ups, forwards;
+  for (int i = 0; i < kPoses; ++i) {
+    const size_t key = static_cast<size_t>(i * (clip.keys - 1) / kPoses);
+    const Pose pose = PoseOf(joints, clip.transforms.data() + key * joints.size());
+    Vec3 u, f;
+    if (FindStance(humanoid, pose.positions, &u, &f)) ups = ups + u, forwards = forwards + f;
+  }
+  if (Length(ups) < 0.7f * kPoses) return false;
+  *up = Normalized(ups);
+  *forward = Normalized(forwards);
+  return true;
+}
+
+Quat HeadingOf(const Rig& rig, const Clip& clip) {
+  Vec3 up, forward;
+  if (!FindStance(rig.humanoid, rig.joints, clip, &up, &forward)) return {};
+  up = Rotated(rig.turn, up), forward = Rotated(rig.turn, forward);
+  const float heading_rad = std::atan2(forward.x, forward.z);
+  if (std::abs(heading_rad) < kSways_rad || up.y < kUpright) return {};
+  return Product(Conjugate(rig.turn), Product(TurnAbout({0, 1, 0}, heading_rad), rig.turn));
 }
 
 bool BendsKnees(const Rig& rig) { return rig.legs[kLeft].shin_m > 0 && rig.legs[kRight].shin_m > 0; }

@@ -74,6 +74,16 @@ struct Rig {
 // Of one key of a clip on the rig's joints in their own space, turned as the reference pose is.
 Pose PoseAt(const Rig& rig, const Clip& clip, int key);
 
+// The mean over a clip of the humanoid's own up and forward. False where its poses differ too much to tell.
+bool FindStance(const Humanoid& humanoid, const std::vector<Joint>& joints, const Clip& clip, Vec3* up, Vec3* forward);
+
+// A body's turn over a walk, to one side at most.
+inline constexpr float kSways_rad = 0.4f;
+
+// From where the rig's bind pose faces to where the clip does, about the vertical and in the joints' own space; none
+// where it is no more than a body sways.
+Quat HeadingOf(const Rig& rig, const Clip& clip);
+
 // Else legs are one bone each, and who walks on them floats or bobs.
 bool BendsKnees(const Rig& rig);
 

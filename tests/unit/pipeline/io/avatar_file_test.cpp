@@ -8,6 +8,7 @@
 #include "pipeline/io/motion_reader.h"
 #include "pipeline/rig/motion_quality.h"
 #include "runtime/base/file.h"
+#include "pipeline/rig/clip_loop.h"
 #include "tests/unit/pipeline/test_human.h"
 #include "tests/unit/pipeline/test_person.h"
 
@@ -426,6 +427,19 @@ TEST_F(AvatarFile, WhoStandsAtAnOddAngleIsTurnedByIt) {
       for (const Clip& clip : avatar_.clips)
         EXPECT_GT(AcrossHips(avatar_, clip, shape).x, 0.98f) << angle_rad << " " << clip.name;
     }
+  }
+}
+
+// Bound aside of where its own walk goes: it stands by what comes with the program as it walks.
+TEST_F(AvatarFile, WhoseWalkGoesAsideOfTheBindPoseStandsTheSameWay) {
+  for (const float heading_rad : {0.8f, -1.2f, 2.8f}) {
+    Avatar walker = MadeHuman({});
+    walker.clips = {MadeWalk(walker)};
+    TurnClip(TurnAbout({0, 1, 0}, heading_rad), walker.joints, &walker.clips[0]);
+    ASSERT_EQ(Read(Write(walker)), "");
+    ASSERT_NE(FindClip(avatar_, "idle"), nullptr);
+    for (const Clip& clip : avatar_.clips)
+      EXPECT_GT(AcrossHips(avatar_, clip, {}).x, 0.98f) << heading_rad << " " << clip.name;
   }
 }
 
