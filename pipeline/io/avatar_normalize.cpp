@@ -215,7 +215,7 @@ bool IsPlausible(float height_m) { return height_m >= kMinHeight_m && height_m <
 float HeightByItself(const NormalizeOptions& options, const Avatar& avatar, float height,
                      std::vector<std::string>* warnings) {
   if (options.scale > 0) return height;
-  const float skeleton = HeightOfSkeleton(avatar, options.told);
+  const float skeleton = HeightOfSkeleton(avatar, options.told) + BoundLowerBy(avatar, options.told);
   if (IsPlausible(height) || IsPlausible(skeleton)) {
     const char* doubt = height < kSmallest_m  ? "less than a child who walks"
                         : height > kTallest_m ? "taller than people in hats"
@@ -243,7 +243,7 @@ Error ScaleToHeight(const NormalizeOptions& options, Avatar* avatar, Mesh* body,
   for (const Mesh& mesh : avatar->meshes) {
     for (const Vec3 p : mesh.positions) extent.Add(p);
   }
-  const float height = extent.max.y - extent.min.y;
+  const float height = extent.max.y - extent.min.y + BoundLowerBy(*avatar, options.told);
   if (!std::isfinite(height) || !(height > 1e-6f)) return Fail("the figure has no height");
   const float widest = std::max(extent.max.x - extent.min.x, extent.max.z - extent.min.z);
   if (height < kFlat * widest) {

@@ -14,6 +14,7 @@ namespace flaneur {
 namespace {
 
 constexpr float kUpright_rad = 0.9f;  // a skeleton further off vertical than this lies
+constexpr float kCrouches = 0.05f;    // of its height: a head that is lower in the bind pose than standing
 constexpr float kHeadJoint = 0.87f;   // of a person's height: where the head's joint is
 
 bool Stance(const Avatar& avatar, const std::vector<NamedBone>& told, Humanoid* h, Vec3* up, Vec3* forward) {
@@ -112,6 +113,25 @@ bool FacingInWalk(const Avatar& avatar, const std::vector<NamedBone>& told, cons
   *by_shape = h.by_shape;
   *forward = Normalized(AngleBetween(bound, walks) < kSways_rad ? bound : walks);
   return Length(*forward) > 0.5f;
+}
+
+float BoundLowerBy(const Avatar& avatar, const std::vector<NamedBone>& told) {
+  Humanoid h;
+  Vec3 up, forward;
+  const Clip* clip = FindClip(avatar, "idle");
+  if (clip == nullptr) clip = FindClip(avatar, "walk");
+  if (clip == nullptr || !Stance(avatar, told, &h, &up, &forward) || h.head < 0) return 0;
+  const auto head_over_feet = [&](const Pose& pose) {
+    float feet = 1e30f;
+    for (const HumanoidLeg& leg : h.legs) {
+      const int lowest = leg.foot >= 0 ? leg.foot : leg.lower >= 0 ? leg.lower : leg.upper;
+      feet = std::min(feet, At(pose.positions, lowest).y);
+    }
+    return At(pose.positions, h.head).y - feet;
+  };
+  const float bound = head_over_feet(BindPose(avatar.joints));
+  const float stands = head_over_feet(PoseOf(avatar.joints, clip->transforms.data()));
+  return stands - bound > kCrouches * stands ? stands - bound : 0;
 }
 
 float HeightOfSkeleton(const Avatar& avatar, const std::vector<NamedBone>& told) {

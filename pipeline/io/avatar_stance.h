@@ -27,6 +27,10 @@ Error StandUp(const std::string& up, const std::string& forward, const std::vect
 bool FacingInWalk(const Avatar& avatar, const std::vector<NamedBone>& told, const Clip& walk, Vec3* forward,
                   bool* by_shape);
 
+// By how much the head is lower in the bind pose than it is standing, over the feet: of who is bound seated or in a
+// stride. 0 where it is not, or where that cannot be told.
+float BoundLowerBy(const Avatar& avatar, const std::vector<NamedBone>& told);
+
 // The height that a person with this skeleton would have, without hats and hair, in the figure's unit; 0: not told.
 float HeightOfSkeleton(const Avatar& avatar, const std::vector<NamedBone>& told);
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <map>
 #include <string_view>
 #include <utility>
 #include <vector>
@@ -86,6 +87,9 @@ constexpr std::array<std::string_view, 25> kIdle = {
     "mixamorig", "bip",      "biped",     "valve",  "def",  "deform", "bn", "bone", "jnt",
     "joint",     "jt",       "cc",        "base",   "j",    "b",      "sk", "c",    "rig",
     "armature",  "skeleton", "character", "center", "gltf", "bind",   "m"};
+
+constexpr size_t kFewest = 6;   // bones of a figure that bears its name on them
+constexpr int kOwnerWords = 4;  // of which the name is made at most
 
 bool IsIdle(const Token& token) { return std::find(kIdle.begin(), kIdle.end(), token) != kIdle.end(); }
 
@@ -193,17 +197,17 @@ BoneName ReadJoined(const std::string& word) {
   return {};
 }
 
-}  // namespace
-
-BoneName ReadBoneName(const std::string& whole) {
+// Without the namespace.
+std::string OwnName(const std::string& whole) {
   const size_t space = whole.find_last_of("|:");
-  const std::string name = space == std::string::npos || space + 1 == whole.size() ? whole : whole.substr(space + 1);
-  if (!IsAscii(name)) return ReadIdeographs(name);
-  if (name.starts_with("__")) return {};  // MakeHuman's links between bones
+  return space == std::string::npos || space + 1 == whole.size() ? whole : whole.substr(space + 1);
+}
+
+BoneName ReadTokens(const std::vector<Token>& tokens) {
   BoneName read;
   std::vector<Token> words;
   std::string joined;
-  for (const Token& token : Tokens(name)) {
+  for (const Token& token : tokens) {
     const bool number = KindOf(token[0]) == Kind::kDigit;
     if (number && !words.empty() && read.number < 0) read.number = std::stoi(token.substr(0, 6));
     if (number || IsIdle(token)) continue;
@@ -221,6 +225,48 @@ BoneName ReadBoneName(const std::string& whole) {
     read.part = together.part;
     read.side = together.side;
   }
+  return read;
+}
+
+// That most of the names begin with, and that is no word for a part or a side; empty where there is none.
+Token SharedFirst(const std::vector<std::vector<Token>>& names) {
+  std::map<Token, size_t> begin;
+  for (const std::vector<Token>& tokens : names) {
+    if (!tokens.empty()) ++begin[tokens[0]];
+  }
+  for (const auto& [token, count] : begin) {
+    if (3 * count < 2 * names.size() || count < kFewest) continue;
+    const bool says = SideOf(token) != BodySide::kNone || PartOf(token) != BodyPart::kNone ||
+                      FingerOf({token}) != BodyPart::kNone || IsIdle(token);
+    return says ? Token{} : token;
+  }
+  return {};
+}
+
+}  // namespace
+
+BoneName ReadBoneName(const std::string& whole) {
+  const std::string name = OwnName(whole);
+  if (!IsAscii(name)) return ReadIdeographs(name);
+  if (name.starts_with("__")) return {};  // MakeHuman's links between bones
+  return ReadTokens(Tokens(name));
+}
+
+std::vector<BoneName> ReadWithoutOwner(const std::vector<std::string>& names) {
+  std::vector<std::vector<Token>> all;
+  for (const std::string& name : names) all.push_back(Tokens(OwnName(name)));
+  bool owned = false;
+  for (int word = 0; word < kOwnerWords; ++word) {
+    const Token first = SharedFirst(all);
+    if (first.empty()) break;
+    for (std::vector<Token>& tokens : all) {
+      if (!tokens.empty() && tokens[0] == first) tokens.erase(tokens.begin());
+    }
+    owned = true;
+  }
+  std::vector<BoneName> read;
+  if (!owned) return read;
+  for (const std::vector<Token>& tokens : all) read.push_back(ReadTokens(tokens));
   return read;
 }
 

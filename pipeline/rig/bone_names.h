@@ -3,6 +3,7 @@
 #pragma once
 #include <cstdint>
 #include <string>
+#include <vector>
 
 namespace flaneur {
 
@@ -41,5 +42,9 @@ struct BoneName {
 
 // kNone for what is no part of a body: twist, control and end bones, hair, clothes, things carried.
 BoneName ReadBoneName(const std::string& name);
+
+// Of all bones of a rig, without what most of their names begin with: "Gandalf_L_Thigh", "old_man_Head". Empty where
+// they share nothing.
+std::vector<BoneName> ReadWithoutOwner(const std::vector<std::string>& names);
 
 }  // namespace flaneur

@@ -40,9 +40,9 @@ std::vector<int> PathBetween(const Joints& joints, int above, int joint) {
 
 class NameReader {
  public:
-  NameReader(const Joints& joints, const std::vector<Vec3>& positions, const std::vector<NamedBone>& told)
-      : joints_(joints), positions_(positions) {
-    for (const Joint& joint : joints) names_.push_back(ReadBoneName(joint.name));
+  NameReader(const Joints& joints, const std::vector<Vec3>& positions, std::vector<BoneName> names,
+             const std::vector<NamedBone>& told)
+      : joints_(joints), positions_(positions), names_(std::move(names)) {
     told_ = !told.empty();
     if (told_) {
       for (BoneName& name : names_) name = {};
@@ -241,13 +241,31 @@ void SetSides(const std::vector<Vec3>& positions, Humanoid* h) {
   std::swap(h->arms[kLeft], h->arms[kRight]);
 }
 
+std::vector<BoneName> NamesWithoutOwner(const Joints& joints) {
+  std::vector<std::string> names;
+  for (const Joint& joint : joints) names.push_back(joint.name);
+  return ReadWithoutOwner(names);
+}
+
 }  // namespace
 
 bool FindHumanoid(const Joints& joints, const std::vector<Vec3>& positions, const std::vector<NamedBone>& told,
                   Humanoid* humanoid, std::string* why) {
   *humanoid = {};
-  NameReader(joints, positions, told).Read(humanoid);
-  if (!IsComplete(joints, humanoid, why)) {
+  std::vector<BoneName> names;
+  for (const Joint& joint : joints) names.push_back(ReadBoneName(joint.name));
+  NameReader(joints, positions, std::move(names), told).Read(humanoid);
+  bool complete = IsComplete(joints, humanoid, why);
+  if (!complete && told.empty()) {
+    Humanoid owned;
+    std::string nothing;
+    if (std::vector<BoneName> without = NamesWithoutOwner(joints); !without.empty()) {
+      NameReader(joints, positions, std::move(without), {}).Read(&owned);
+      complete = IsComplete(joints, &owned, &nothing);
+    }
+    if (complete) *humanoid = std::move(owned);
+  }
+  if (!complete) {
     Humanoid shaped;
     if (!FindHumanoidByShape(joints, positions, &shaped)) return false;
     shaped.by_shape = true;

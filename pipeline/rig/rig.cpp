@@ -15,9 +15,11 @@ constexpr size_t kSoleDirections = 16;  // that the sole's outline is kept in
 constexpr std::array<float, 6> kPitches_deg{-90, -60, -35, 35, 60, 90};  // in which the foot's tips are looked for
 constexpr float kAnkleHeight = 0.09f;                                    // of the leg's length, where nothing tells
 constexpr int kPoses = 16;                                               // of a clip, whose mean tells how it stands
-constexpr float kUpright = 0.6f;                                 // of 1: how far up the trunk of who walks points
-constexpr float kShortestLeg = 0.2f;                             // of the trunk's length
-constexpr float kMinAnkle = 0.03f, kMaxAnkle = 0.25f;            // of the leg's length: where y = 0 may be the ground
+constexpr float kLies = 0.7f;                          // of 1: how far ahead a thigh points that is no longer upright
+constexpr float kBent = 0.35f;                         // sine of a knee's bend that tells its hinge
+constexpr float kUpright = 0.6f;                       // of 1: how far up the trunk of who walks points
+constexpr float kShortestLeg = 0.2f;                   // of the trunk's length
+constexpr float kMinAnkle = 0.03f, kMaxAnkle = 0.25f;  // of the leg's length: where y = 0 may be the ground
 constexpr float kBall = 0.19f, kToeTip = 0.27f, kHeel = -0.06f;  // of the leg's length, before the ankle
 
 Vec3 InFrame(const Pose& pose, int joint, Vec3 place) {
@@ -38,14 +40,23 @@ class RigMaker {
       MakeArm(side);
       const RigLeg& leg = rig_.legs[side];
       const Vec3 knee = leg.lower >= 0 ? Place(leg.lower) : PlaceOf(leg.ankle, rig_.reference);
-      rig_.leg_upper[side] = LegFrame(knee - Place(leg.upper), {0, 0, 1});
-      rig_.leg_lower[side] =
-          leg.lower < 0 ? rig_.leg_upper[side] : LegFrame(PlaceOf(leg.ankle, rig_.reference) - knee, {0, 0, 1});
+      const Vec3 thigh = knee - Place(leg.upper), shin = PlaceOf(leg.ankle, rig_.reference) - knee;
+      rig_.leg_upper[side] = LegFrame(thigh, FrontOfLeg(thigh, thigh, shin));
+      rig_.leg_lower[side] = leg.lower < 0 ? rig_.leg_upper[side] : LegFrame(shin, FrontOfLeg(shin, thigh, shin));
     }
   }
 
  private:
   Vec3 Place(int joint) const { return At(rig_.reference.positions, joint); }
+
+  // Of the thigh or the shin. Knees point ahead in a bind pose that stands; of who is bound seated they turn about the
+  // hinge that they are bent about or, where they are straight, the thighs were raised about.
+  static Vec3 FrontOfLeg(Vec3 part, Vec3 thigh, Vec3 shin) {
+    const Vec3 along = Normalized(thigh);
+    if (along.z < kLies) return {0, 0, 1};
+    const Vec3 bent = Cross(along, Normalized(shin));
+    return Cross(bent.x > kBent ? bent : Cross(along, {0, -1, 0}), part * -1);
+  }
 
   void MakeLeg(size_t side) {
     const HumanoidLeg& h = rig_.humanoid.legs[side];

@@ -139,4 +139,27 @@ inline Clip MadeWalk(const Avatar& human, int keys = 31) {
   return walk;
 }
 
+// Binds MadeHuman, without clips or with, as it sits: thighs raised and apart by these angles, knees bent, rad.
+inline void BindSeated(float raised, float bent, float apart, Avatar* human) {
+  Clip sits{"sits", 1, 1, {}};
+  for (size_t j = 0; j < human->joints.size(); ++j) {
+    Transform t = human->joints[j].rest;
+    const float outward = j < 14 ? apart : -apart;
+    if (j == 10 || j == 14)
+      t.rotation = Product(t.rotation, Product(TurnAbout({0, 1, 0}, outward), TurnAbout({1, 0, 0}, -raised)));
+    if (j == 11 || j == 15) t.rotation = Product(t.rotation, TurnAbout({1, 0, 0}, bent));
+    sits.transforms.push_back(t);
+  }
+  Mesh& mesh = human->meshes[0];
+  mesh.positions = SkinnedPositions(mesh, SkinningMatrices(*human, sits, 0));
+  std::vector<Mat4> world;
+  for (size_t j = 0; j < human->joints.size(); ++j) {
+    Joint& joint = human->joints[j];
+    joint.rest = sits.transforms[j];
+    const Mat4 local = FromTranslationRotationScale(joint.rest.translation, joint.rest.rotation, {1, 1, 1});
+    world.push_back(joint.parent < 0 ? local : world[static_cast<size_t>(joint.parent)] * local);
+    joint.inverse_bind = Inverse(world.back());
+  }
+}
+
 }  // namespace flaneur

@@ -51,10 +51,10 @@ void HoldOut(Avatar* person) {
     AddBox({0.5f, 1.2f, 0.3f}, {0.5f, 1.2f, 1.0f}, 0.03f + 0.001f * static_cast<float>(i), kHand, &person->meshes[0]);
 }
 
-void Normalize(Avatar* person) {
+void Normalize(Avatar* person, const NormalizeOptions& options = {}) {
   std::vector<std::string> warnings;
   const Mesh body = person->meshes[0];
-  const Error e = NormalizeAvatar({}, body, person, &warnings);
+  const Error e = NormalizeAvatar(options, body, person, &warnings);
   ASSERT_FALSE(e) << e.message;
 }
 
@@ -74,6 +74,22 @@ TEST(NormalizeAvatar, NobodyLeavesTheirPlaceInAnyClipWhereverTheyStoodInTheirFil
     EXPECT_LT(Length(HipsIn(person, "idle")), 0.01f) << place.x;
     EXPECT_LT(Length(HipsIn(person, "sit") - Vec3{0, 0, -0.3f}), 0.01f) << place.x;
   }
+}
+
+// Bound on a chair, as a file may be saved: as high as it stands, not as it sits.
+TEST(NormalizeAvatar, WhoIsBoundSeatedIsAsHighAsTheyStand) {
+  Avatar stands = Person({}), seated = Person({});
+  BindSeated(1.5f, 1.5f, 0, &seated);
+  Normalize(&stands);
+  Normalize(&seated);
+  EXPECT_NEAR(seated.height_m, stands.height_m, 0.02f);
+  NormalizeOptions told;
+  told.height_m = 1.6f;
+  Avatar again = Person({});
+  BindSeated(1.5f, 1.5f, 0, &again);
+  Normalize(&again, told);
+  const auto thigh = [](const Avatar& person) { return Length(person.joints[kLeftThigh + 1].rest.translation); };
+  EXPECT_NEAR(thigh(again) / thigh(seated), 1.6f / stands.height_m, 0.02f);
 }
 
 }  // namespace

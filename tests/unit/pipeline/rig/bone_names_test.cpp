@@ -71,5 +71,22 @@ TEST(BoneNames, OfWhatIsNoPartOfABodySayNothing) {
   }
 }
 
+TEST(BoneNames, AreReadWithoutTheirOwnersName) {
+  for (const std::string owner : {"Gandalf_", "old_man-", "knight", "x2_", "Char 01 "}) {
+    std::vector<std::string> names = {"Rig"};
+    for (const char* bone : {"Hips", "Spine", "Head", "L_Thigh", "R_Thigh", "L_Calf", "R_Calf", "L_Foot", "R_Foot"})
+      names.push_back(owner + bone);
+    const std::vector<BoneName> read = ReadWithoutOwner(names);
+    ASSERT_EQ(read.size(), names.size()) << owner;
+    EXPECT_EQ(read[3].part, BodyPart::kHead) << owner;
+    EXPECT_EQ(read[4].part, BodyPart::kUpperLeg) << owner;
+    EXPECT_EQ(read[4].side, BodySide::kLeft) << owner;
+    EXPECT_EQ(read[9].part, BodyPart::kFoot) << owner;
+    EXPECT_EQ(read[9].side, BodySide::kRight) << owner;
+  }
+  EXPECT_TRUE(ReadWithoutOwner({"Hips", "Spine", "Head", "Left_Leg", "Left_Foot", "Left_Arm", "Left_Hand"}).empty());
+  EXPECT_TRUE(ReadWithoutOwner({"Left_Leg", "Left_Foot", "Left_Arm", "Left_Hand", "Left_Toe", "Left_Knee"}).empty());
+}
+
 }  // namespace
 }  // namespace flaneur

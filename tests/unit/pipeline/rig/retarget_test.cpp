@@ -140,6 +140,33 @@ TEST(Retarget, KneesBendForwardHoweverHighTheyAreLifted) {
   EXPECT_LT(PastLimits(to, Retarget(from, high, to, {.walks = true}).clip), 0.1f);
 }
 
+// As a file may be saved: on a chair, on the ground, with knees apart.
+TEST(Retarget, WhoIsBoundSeatedWalksAsIfBoundStanding) {
+  const Avatar person = MadeHuman({});
+  const Clip walk = MadeWalk(person);
+  Rig standing;
+  std::string why;
+  ASSERT_TRUE(MakeRig(person, {}, &standing, &why)) << why;
+  const Clip expected = Retarget(standing, walk, standing, {.walks = true}).clip;
+  for (const auto& [raised, bent, apart] :
+       {std::array{1.5f, 1.5f, 0.0f}, {1.4f, 1.2f, 0.4f}, {1.5f, 0.0f, 0.0f}, {1.3f, 2.0f, 0.3f}}) {
+    Avatar seated = MadeHuman({});
+    BindSeated(raised, bent, apart, &seated);
+    Rig rig;
+    ASSERT_TRUE(MakeRig(seated, {}, &rig, &why)) << why;
+    const Clip made = Retarget(standing, walk, rig, {.walks = true}).clip;
+    ASSERT_EQ(made.keys, expected.keys);
+    for (int k = 0; k < made.keys; ++k) {
+      const auto at = [&](const Rig& of, const Clip& clip) { return PoseAt(of, clip, k).positions; };
+      const std::vector<Vec3> here = at(rig, made), there = at(standing, expected);
+      for (const size_t j : {size_t{11}, size_t{12}, size_t{15}, size_t{16}}) {
+        const Vec3 off = (here[j] - here[0]) - (there[j] - there[0]);
+        EXPECT_LT(Length(off), 0.06f) << raised << " " << bent << " " << apart << ": joint " << j << ", key " << k;
+      }
+    }
+  }
+}
+
 TEST(Retarget, LegsOfOneBoneWithoutAMeshReachTheGround) {
   Avatar human = MadeHuman({});
   human.meshes.clear();
