@@ -6,9 +6,9 @@
 
 #include "pipeline/io/gltf.h"
 #include "pipeline/io/motion_reader.h"
+#include "pipeline/rig/clip_loop.h"
 #include "pipeline/rig/motion_quality.h"
 #include "runtime/base/file.h"
-#include "pipeline/rig/clip_loop.h"
 #include "tests/unit/pipeline/test_human.h"
 #include "tests/unit/pipeline/test_person.h"
 

@@ -63,4 +63,3 @@ TEST(PlantFeet, AWalkKeepsItsHeadingAsideOfTheBindPose) {
 
 }  // namespace
 }  // namespace flaneur
-
