@@ -218,11 +218,13 @@ bool IsQuadruped(const Humanoid& h, const std::vector<Vec3>& positions) {
   return square && AngleBetween(knees - hips, elbows - shoulders) < 0.9f && width < 1.2f * Length(trunk);
 }
 
-// Of both feet, away from their joints; square to `trunk`.
+// Of both feet, away from their joints, as if the shins stood upright under `trunk`; square to it.
 Vec3 ToesOf(const Humanoid& h, const std::vector<Vec3>& positions, Vec3 trunk) {
   Vec3 toes;
   for (const HumanoidLeg& leg : h.legs) {
-    if (leg.foot >= 0 && leg.toes >= 0) toes = toes + At(positions, leg.toes) - At(positions, leg.foot);
+    if (leg.foot < 0 || leg.toes < 0) continue;
+    const Vec3 shin = leg.lower >= 0 ? At(positions, leg.foot) - At(positions, leg.lower) : trunk * -1;
+    toes = toes + Rotated(ArcBetween(shin, trunk * -1), At(positions, leg.toes) - At(positions, leg.foot));
   }
   return toes - trunk * Dot(toes, trunk);
 }

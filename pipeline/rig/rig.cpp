@@ -16,6 +16,7 @@ constexpr std::array<float, 6> kPitches_deg{-90, -60, -35, 35, 60, 90};  // in w
 constexpr float kAnkleHeight = 0.09f;                                    // of the leg's length, where nothing tells
 constexpr int kPoses = 16;                                               // of a clip, whose mean tells how it stands
 constexpr float kLies = 0.7f;                          // of 1: how far ahead a thigh points that is no longer upright
+constexpr float kFolded = 0.6f;                        // cosine of a knee's bend that no one stands with
 constexpr float kBent = 0.35f;                         // sine of a knee's bend that tells its hinge
 constexpr float kUpright = 0.6f;                       // of 1: how far up the trunk of who walks points
 constexpr float kShortestLeg = 0.2f;                   // of the trunk's length
@@ -49,12 +50,12 @@ class RigMaker {
  private:
   Vec3 Place(int joint) const { return At(rig_.reference.positions, joint); }
 
-  // Of the thigh or the shin. Knees point ahead in a bind pose that stands; of who is bound seated they turn about the
-  // hinge that they are bent about or, where they are straight, the thighs were raised about.
+  // Of the thigh or the shin. Knees point ahead in a bind pose that stands; of who is bound seated or running they turn
+  // about the hinge that they are bent about or, where they are straight, the thighs were raised about.
   static Vec3 FrontOfLeg(Vec3 part, Vec3 thigh, Vec3 shin) {
-    const Vec3 along = Normalized(thigh);
-    if (along.z < kLies) return {0, 0, 1};
-    const Vec3 bent = Cross(along, Normalized(shin));
+    const Vec3 along = Normalized(thigh), below = Normalized(shin);
+    if (along.z < kLies && Dot(along, below) > kFolded) return {0, 0, 1};
+    const Vec3 bent = Cross(along, below);
     return Cross(bent.x > kBent ? bent : Cross(along, {0, -1, 0}), part * -1);
   }
 

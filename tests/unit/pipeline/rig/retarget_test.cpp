@@ -151,7 +151,7 @@ std::vector<Vec3> SkinOver(const Avatar& person, const Clip& clip, int key) {
   return skin;
 }
 
-// As a file may be saved: on a chair, on the ground, with knees apart.
+// As a file may be saved: on a chair, on the ground, with knees apart, with the shins of who runs.
 TEST(Retarget, WhoIsBoundSeatedWalksAsIfBoundStanding) {
   const Avatar person = MadeHuman({});
   const Clip walk = MadeWalk(person);
@@ -174,6 +174,23 @@ TEST(Retarget, WhoIsBoundSeatedWalksAsIfBoundStanding) {
       const std::vector<Vec3> here = SkinOver(seated, made, k), there = SkinOver(person, expected, k);
       for (size_t v = 0; v < kFeet; ++v)
         ASSERT_LT(Length(here[v] - there[v]), 0.06f) << raised << " " << bent << " " << apart << ": vertex " << v;
+    }
+  }
+}
+
+TEST(Retarget, AKneeIsOneHingeHoweverItIsBound) {
+  for (const auto& [raised, bent, apart] : {std::array{0.0f, 0.1f, 0.0f},
+                                            {1.5f, 1.5f, 0.3f},
+                                            {1.75f, 1.9f, 0.2f},
+                                            {0.1f, 1.9f, 0.2f},
+                                            {-0.3f, 1.6f, -0.2f}}) {
+    Avatar person = MadeHuman({});
+    BindSeated(raised, bent, apart, &person);
+    const Rig rig = RigOf(person);
+    for (const size_t side : {kLeft, kRight}) {
+      const Vec3 thigh = Rotated(rig.leg_upper[side], {1, 0, 0}), shin = Rotated(rig.leg_lower[side], {1, 0, 0});
+      EXPECT_LT(AngleBetween(thigh, shin), 0.1f) << raised << " " << bent << " " << apart;
+      EXPECT_GT(thigh.x, 0.8f) << raised << " " << bent << " " << apart;
     }
   }
 }
