@@ -15,12 +15,12 @@ constexpr size_t kSoleDirections = 16;  // that the sole's outline is kept in
 constexpr std::array<float, 6> kPitches_deg{-90, -60, -35, 35, 60, 90};  // in which the foot's tips are looked for
 constexpr float kAnkleHeight = 0.09f;                                    // of the leg's length, where nothing tells
 constexpr int kPoses = 16;                                               // of a clip, whose mean tells how it stands
-constexpr float kLies = 0.7f;                          // of 1: how far ahead a thigh points that is no longer upright
-constexpr float kFolded = 0.6f;                        // cosine of a knee's bend that no one stands with
-constexpr float kBent = 0.35f;                         // sine of a knee's bend that tells its hinge
-constexpr float kUpright = 0.6f;                       // of 1: how far up the trunk of who walks points
-constexpr float kShortestLeg = 0.2f;                   // of the trunk's length
-constexpr float kMinAnkle = 0.03f, kMaxAnkle = 0.25f;  // of the leg's length: where y = 0 may be the ground
+constexpr float kLies = 0.7f;         // of 1: how far ahead a thigh points that is no longer upright
+constexpr float kFolded = 0.92f;      // cosine of a knee's bend that tells its hinge better than the front does
+constexpr float kBent = 0.35f;        // sine of a knee's bend that tells its hinge
+constexpr float kUpright = 0.6f;      // of 1: how far up the trunk of who walks points
+constexpr float kShortestLeg = 0.2f;  // of the trunk's length
+constexpr float kMinAnkle = 0.03f, kMaxAnkle = 0.25f;            // of the leg's length: where y = 0 may be the ground
 constexpr float kBall = 0.19f, kToeTip = 0.27f, kHeel = -0.06f;  // of the leg's length, before the ankle
 
 Vec3 InFrame(const Pose& pose, int joint, Vec3 place) {
