@@ -54,7 +54,59 @@ constexpr std::array kWords = {
     Word{"ankle", BodyPart::kFoot},         Word{"toe", BodyPart::kToes},
     Word{"toes", BodyPart::kToes},          Word{"ball", BodyPart::kToes},
     Word{"toebase", BodyPart::kToes},       Word{"uarm", BodyPart::kUpperArm},
-    Word{"farm", BodyPart::kLowerArm},
+    Word{"farm", BodyPart::kLowerArm},      Word{"shank", BodyPart::kLowerLeg},
+    Word{"palm", BodyPart::kHand},          Word{"neckhead", BodyPart::kHead},
+    Word{"legankle", BodyPart::kFoot},      Word{"legfoot", BodyPart::kFoot},
+    Word{"legtoe", BodyPart::kToes},        Word{"armpalm", BodyPart::kHand},
+    Word{"armhand", BodyPart::kHand},
+};
+
+// German, French, Spanish and Italian, as they are written without accents.
+constexpr std::array kOtherWords = {
+    Word{"becken", BodyPart::kHips},
+    Word{"bassin", BodyPart::kHips},
+    Word{"cadera", BodyPart::kHips},
+    Word{"bacino", BodyPart::kHips},
+    Word{"kopf", BodyPart::kHead},
+    Word{"tete", BodyPart::kHead},
+    Word{"cabeza", BodyPart::kHead},
+    Word{"testa", BodyPart::kHead},
+    Word{"hals", BodyPart::kNeck},
+    Word{"cou", BodyPart::kNeck},
+    Word{"cuello", BodyPart::kNeck},
+    Word{"collo", BodyPart::kNeck},
+    Word{"schulter", BodyPart::kShoulder},
+    Word{"epaule", BodyPart::kShoulder},
+    Word{"hombro", BodyPart::kShoulder},
+    Word{"spalla", BodyPart::kShoulder},
+    Word{"oberarm", BodyPart::kUpperArm},
+    Word{"bras", BodyPart::kArm},
+    Word{"brazo", BodyPart::kArm},
+    Word{"braccio", BodyPart::kArm},
+    Word{"unterarm", BodyPart::kLowerArm},
+    Word{"avantbras", BodyPart::kLowerArm},
+    Word{"antebrazo", BodyPart::kLowerArm},
+    Word{"avambraccio", BodyPart::kLowerArm},
+    Word{"main", BodyPart::kHand},
+    Word{"mano", BodyPart::kHand},
+    Word{"oberschenkel", BodyPart::kUpperLeg},
+    Word{"cuisse", BodyPart::kUpperLeg},
+    Word{"muslo", BodyPart::kUpperLeg},
+    Word{"coscia", BodyPart::kUpperLeg},
+    Word{"bein", BodyPart::kLeg},
+    Word{"jambe", BodyPart::kLeg},
+    Word{"pierna", BodyPart::kLeg},
+    Word{"gamba", BodyPart::kLeg},
+    Word{"unterschenkel", BodyPart::kLowerLeg},
+    Word{"mollet", BodyPart::kLowerLeg},
+    Word{"pantorrilla", BodyPart::kLowerLeg},
+    Word{"polpaccio", BodyPart::kLowerLeg},
+    Word{"fuss", BodyPart::kFoot},
+    Word{"pied", BodyPart::kFoot},
+    Word{"pie", BodyPart::kFoot},
+    Word{"piede", BodyPart::kFoot},
+    Word{"zehen", BodyPart::kToes},
+    Word{"orteils", BodyPart::kToes},
 };
 
 // The parts of a finger's name, with or without the hand's.
@@ -83,10 +135,10 @@ constexpr std::array kIdeographs = {
 constexpr std::array<std::string_view, 6> kIdeographsOfNoBody = {"ＩＫ", "IK", "捩", "先", "親", "指"};
 
 // Whose rig it is, and what says nothing about where.
-constexpr std::array<std::string_view, 25> kIdle = {
-    "mixamorig", "bip",      "biped",     "valve",  "def",  "deform", "bn", "bone", "jnt",
-    "joint",     "jt",       "cc",        "base",   "j",    "b",      "sk", "c",    "rig",
-    "armature",  "skeleton", "character", "center", "gltf", "bind",   "m"};
+constexpr std::array<std::string_view, 27> kIdle = {
+    "mixamorig", "bip",      "biped",     "valve",  "def",  "deform", "bn", "bone",    "jnt",
+    "joint",     "jt",       "cc",        "base",   "j",    "b",      "sk", "c",       "rig",
+    "armature",  "skeleton", "character", "center", "gltf", "bind",   "m",  "stretch", "x"};
 
 constexpr size_t kFewest = 6;   // bones of a figure that bears its name on them
 constexpr int kOwnerWords = 4;  // of which the name is made at most
@@ -125,13 +177,20 @@ std::vector<Token> Tokens(const std::string& name) {
 }
 
 BodySide SideOf(const Token& token) {
-  if (token == "l" || token == "left" || token == "lft") return BodySide::kLeft;
-  if (token == "r" || token == "right" || token == "rgt") return BodySide::kRight;
+  static constexpr std::array<std::string_view, 9> kLefts = {"l",         "left",      "lft",      "links",   "gauche",
+                                                             "izquierda", "izquierdo", "sinistra", "sinistro"};
+  static constexpr std::array<std::string_view, 10> kRights = {"r",     "right",   "rgt",     "rechts", "droite",
+                                                               "droit", "derecha", "derecho", "destra", "destro"};
+  if (std::find(kLefts.begin(), kLefts.end(), token) != kLefts.end()) return BodySide::kLeft;
+  if (std::find(kRights.begin(), kRights.end(), token) != kRights.end()) return BodySide::kRight;
   return BodySide::kNone;
 }
 
 BodyPart PartOf(const std::string& words) {
   for (const Word& word : kWords) {
+    if (word.text == words) return word.part;
+  }
+  for (const Word& word : kOtherWords) {
     if (word.text == words) return word.part;
   }
   return BodyPart::kNone;
@@ -197,10 +256,26 @@ BoneName ReadJoined(const std::string& word) {
   return {};
 }
 
-// Without the namespace.
+// Without the namespace, and without the short form that some write behind: "NPC L Thigh [LThg]".
 std::string OwnName(const std::string& whole) {
   const size_t space = whole.find_last_of("|:");
-  return space == std::string::npos || space + 1 == whole.size() ? whole : whole.substr(space + 1);
+  const std::string name = space == std::string::npos || space + 1 == whole.size() ? whole : whole.substr(space + 1);
+  const size_t bracket = name.ends_with("]") ? name.rfind(" [") : std::string::npos;
+  return bracket == std::string::npos ? name : name.substr(0, bracket);
+}
+
+// "bras g", "mano i", "braccio s": gauche, izquierda, sinistra; the other side is d in all three.
+BoneName ReadInitial(const std::vector<Token>& words) {
+  if (words.size() < 2) return {};
+  const Token& initial = words.back();
+  const bool left = initial == "g" || initial == "i" || initial == "s";
+  if (!left && initial != "d") return {};
+  std::string joined;
+  for (size_t w = 0; w + 1 < words.size(); ++w) joined += words[w];
+  for (const Word& word : kOtherWords) {
+    if (word.text == joined) return {word.part, left ? BodySide::kLeft : BodySide::kRight, -1};
+  }
+  return {};
 }
 
 BoneName ReadTokens(const std::vector<Token>& tokens) {
@@ -221,7 +296,8 @@ BoneName ReadTokens(const std::vector<Token>& tokens) {
   read.part = PartOf(joined);
   if (read.part == BodyPart::kNone && !words.empty()) read.part = FingerOf(words);
   if (read.part == BodyPart::kNone && read.side == BodySide::kNone) {
-    const BoneName together = ReadJoined(joined);
+    BoneName together = ReadInitial(words);
+    if (together.part == BodyPart::kNone) together = ReadJoined(joined);
     read.part = together.part;
     read.side = together.side;
   }
@@ -236,8 +312,8 @@ Token SharedFirst(const std::vector<std::vector<Token>>& names) {
   }
   for (const auto& [token, count] : begin) {
     if (3 * count < 2 * names.size() || count < kFewest) continue;
-    const bool says = SideOf(token) != BodySide::kNone || PartOf(token) != BodyPart::kNone ||
-                      FingerOf({token}) != BodyPart::kNone || IsIdle(token);
+    const bool says =
+        SideOf(token) != BodySide::kNone || PartOf(token) != BodyPart::kNone || FingerOf({token}) != BodyPart::kNone;
     return says ? Token{} : token;
   }
   return {};

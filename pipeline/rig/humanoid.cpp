@@ -115,7 +115,7 @@ class NameReader {
     if (leg.upper < 0 && lower >= 0) leg.upper = Find(BodyPart::kHips, side);
     if (leg.upper < 0) return leg;
     leg.lower = FindBelow(BodyPart::kLowerLeg, side, leg.upper);
-    if (leg.lower < 0 && named) leg.lower = Find(BodyPart::kLeg, side, leg.upper);
+    if (leg.lower < 0) leg.lower = Find(BodyPart::kLeg, side, leg.upper);  // "Leg1" and "Leg2" too
     if (leg.lower >= 0 && !IsBelow(joints_, leg.lower, leg.upper)) leg.lower = -1;
     leg.foot = FindBelow(BodyPart::kFoot, side, leg.lower);
     leg.toes = FindBelow(BodyPart::kToes, side, leg.foot);
@@ -133,6 +133,7 @@ class NameReader {
     if (arm.upper < 0) arm.upper = shoulder;
     if (arm.upper < 0) return arm;
     arm.lower = FindBelow(BodyPart::kLowerArm, side, arm.upper);
+    if (arm.lower < 0) arm.lower = Find(BodyPart::kArm, side, arm.upper);
     if (arm.lower >= 0 && !IsBelow(joints_, arm.lower, arm.upper)) arm.lower = -1;
     arm.hand = FindBelow(BodyPart::kHand, side, arm.lower);
     if (arm.lower >= 0 && clavicle >= 0 && shoulder >= 0 && arm.upper != shoulder &&

@@ -264,6 +264,53 @@ TEST(Steps, WhoWalksStandsUntilTheOtherFootDoes) {
   }
 }
 
+// In the order of HumanShape's.
+TEST(Humanoid, IsFoundByTheNamesOfManyRigs) {
+  const std::vector<std::vector<std::string>> rigs = {
+      {"Root_M", "Spine1_M", "Neck_M", "Head_M", "Shoulder_L", "Elbow_L", "Wrist_L", "Shoulder_R", "Elbow_R", "Wrist_R",
+       "Hip_L", "Knee_L", "Ankle_L", "Toes_L", "Hip_R", "Knee_R", "Ankle_R", "Toes_R"},
+      {"m_avg_Pelvis", "m_avg_Spine1", "m_avg_Neck", "m_avg_Head", "m_avg_L_Shoulder", "m_avg_L_Elbow", "m_avg_L_Wrist",
+       "m_avg_R_Shoulder", "m_avg_R_Elbow", "m_avg_R_Wrist", "m_avg_L_Hip", "m_avg_L_Knee", "m_avg_L_Ankle",
+       "m_avg_L_Foot", "m_avg_R_Hip", "m_avg_R_Knee", "m_avg_R_Ankle", "m_avg_R_Foot"},
+      {"root.x", "spine_01.x", "neck.x", "head.x", "arm_stretch.l", "forearm_stretch.l", "hand.l", "arm_stretch.r",
+       "forearm_stretch.r", "hand.r", "thigh_stretch.l", "leg_stretch.l", "foot.l", "toes_01.l", "thigh_stretch.r",
+       "leg_stretch.r", "foot.r", "toes_01.r"},
+      {"NPC Pelvis [Pelv]", "NPC Spine [Spn0]", "NPC Neck [Neck]", "NPC Head [Head]", "NPC L UpperArm [LUar]",
+       "NPC L Forearm [LLar]", "NPC L Hand [LHnd]", "NPC R UpperArm [RUar]", "NPC R Forearm [RLar]",
+       "NPC R Hand [RHnd]", "NPC L Thigh [LThg]", "NPC L Calf [LClf]", "NPC L Foot [Lft ]", "NPC L Toe0 [LToe]",
+       "NPC R Thigh [RThg]", "NPC R Calf [RClf]", "NPC R Foot [Rft ]", "NPC R Toe0 [RToe]"},
+      {"CATRigPelvis", "CATRigSpine1", "CATRigNeck", "CATRigHead", "CATRigLArm1", "CATRigLArm2", "CATRigLArmPalm",
+       "CATRigRArm1", "CATRigRArm2", "CATRigRArmPalm", "CATRigLLeg1", "CATRigLLeg2", "CATRigLLegAnkle", "CATRigLLegToe",
+       "CATRigRLeg1", "CATRigRLeg2", "CATRigRLegAnkle", "CATRigRLegToe"},
+      {"Becken", "Wirbel", "Hals", "Kopf", "Oberarm_L", "Unterarm_L", "Hand_L", "Oberarm_R", "Unterarm_R", "Hand_R",
+       "Oberschenkel_L", "Unterschenkel_L", "Fuss_L", "Zehen_L", "Oberschenkel_R", "Unterschenkel_R", "Fuss_R",
+       "Zehen_R"},
+      {"Bassin", "Colonne", "Cou", "Tete", "Bras_G", "AvantBras_G", "Main_G", "Bras_D", "AvantBras_D", "Main_D",
+       "Cuisse_G", "Mollet_G", "Pied_G", "Orteils_G", "Cuisse_D", "Mollet_D", "Pied_D", "Orteils_D"},
+      {"Hip", "Torso", "Neck", "Head", "Bob_L_Bicep", "Bob_L_Forearm", "Bob_L_Palm", "Bob_R_Bicep", "Bob_R_Forearm",
+       "Bob_R_Palm", "Bob_L_Thigh", "Bob_L_Shank", "Bob_L_Foot", "Bob_L_Toe", "Bob_R_Thigh", "Bob_R_Shank",
+       "Bob_R_Foot", "Bob_R_Toe"},
+  };
+  for (const std::vector<std::string>& names : rigs) {
+    const Avatar person = MadeHuman({.names = names});
+    Humanoid h;
+    std::string why;
+    ASSERT_TRUE(FindHumanoid(person.joints, BindPose(person.joints).positions, {}, &h, &why)) << why;
+    EXPECT_FALSE(h.by_shape) << names[10];
+    EXPECT_EQ(h.head, 3) << names[3];
+    for (const size_t side : {kLeft, kRight}) {
+      const int leg = side == kLeft ? 10 : 14, arm = side == kLeft ? 4 : 7;
+      EXPECT_EQ(h.legs[side].upper, leg) << names[10];
+      EXPECT_EQ(h.legs[side].lower, leg + 1) << names[10];
+      EXPECT_EQ(h.legs[side].foot, leg + 2) << names[10];
+      EXPECT_EQ(h.legs[side].toes, leg + 3) << names[10];
+      EXPECT_EQ(h.arms[side].upper, arm) << names[10];
+      EXPECT_EQ(h.arms[side].lower, arm + 1) << names[10];
+      EXPECT_EQ(h.arms[side].hand, arm + 2) << names[10];
+    }
+  }
+}
+
 TEST(Humanoid, IsFoundByShapeWhereNamesSayNothing) {
   HumanShape shape;
   for (size_t j = 0; j < shape.names.size(); ++j) shape.names[j] = "node " + std::to_string(j);
