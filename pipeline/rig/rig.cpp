@@ -15,6 +15,13 @@ constexpr size_t kSoleDirections = 16;  // that the sole's outline is kept in
 constexpr std::array<float, 6> kPitches_deg{-90, -60, -35, 35, 60, 90};  // in which the foot's tips are looked for
 constexpr float kAnkleHeight = 0.09f;                                    // of the leg's length, where nothing tells
 constexpr int kPoses = 16;                                               // of a clip, whose mean tells how it stands
+constexpr float kOwnPart = 0.6f;        // a vertex that tells how its foot or toes lie hangs on them by as much
+constexpr float kLying_rad = 1.1f;      // of a shin: whose foot stands on nothing
+constexpr float kFlatBand = 0.02f;      // of the leg's length, that a sole on the ground is uneven by
+constexpr float kShortestSole = 0.04f;  // of the leg's length
+constexpr float kFlatShare = 0.4f;      // of the part's length, that its sole's flat takes at least
+constexpr float kAhead = 0.5f;          // of 1: how far toes point ahead that tell where their foot does
+constexpr float kLevel_rad = 0.2f, kSteepest_rad = 1.4f;  // of a sole that is turned level
 constexpr float kLies = 0.7f;         // of 1: how far ahead a thigh points that is no longer upright
 constexpr float kFolded = 0.92f;      // cosine of a knee's bend that tells its hinge better than the front does
 constexpr float kBent = 0.35f;        // sine of a knee's bend that tells its hinge
@@ -27,6 +34,29 @@ Vec3 InFrame(const Pose& pose, int joint, Vec3 place) {
   return Rotated(Conjugate(At(pose.rotations, joint)), place - At(pose.positions, joint));
 }
 
+// Of the longest edge that `points` (ahead, up) can stand on. False where it is shorter than `least`, or they are
+// round.
+bool SlopeBelow(std::vector<Vec2> points, float least, float* slope_rad) {
+  if (points.empty()) return false;
+  std::sort(points.begin(), points.end(), [](Vec2 a, Vec2 b) { return a.x != b.x ? a.x < b.x : a.y < b.y; });
+  std::vector<Vec2> hull;
+  for (const Vec2 p : points) {
+    const auto turns_up = [&] {
+      const Vec2 a = hull[hull.size() - 2], b = hull.back();
+      return (b.x - a.x) * (p.y - a.y) - (b.y - a.y) * (p.x - a.x) > 0;
+    };
+    while (hull.size() > 1 && !turns_up()) hull.pop_back();
+    hull.push_back(p);
+  }
+  float longest = std::max(least, kFlatShare * (hull.back().x - hull[0].x));
+  bool found = false;
+  for (size_t i = 1; i < hull.size(); ++i) {
+    const float ahead = hull[i].x - hull[i - 1].x, up = hull[i].y - hull[i - 1].y, length = std::hypot(ahead, up);
+    if (length > longest) found = true, longest = length, *slope_rad = std::atan2(up, ahead);
+  }
+  return found;
+}
+
 class RigMaker {
  public:
   RigMaker(const Avatar& person, Rig* rig) : person_(person), rig_(*rig) {}
@@ -35,6 +65,13 @@ class RigMaker {
     for (const size_t side : {kLeft, kRight}) MakeLeg(side);
     rig_.leg_m = 0.5f * (rig_.legs[kLeft].thigh_m + rig_.legs[kLeft].shin_m + rig_.legs[kRight].thigh_m +
                          rig_.legs[kRight].shin_m);
+    for (const RigLeg& leg : rig_.legs) {
+      if (leg.foot < 0 || leg.lower < 0) continue;
+      const Quat upright = ArcBetween(Place(leg.foot) - Place(leg.lower), {0, -1, 0});
+      if (AngleOf(upright) < kLying_rad && StandsFlat(leg.foot)) continue;
+      Level(leg.foot, leg.toes, upright);
+      if (leg.toes >= 0) Level(leg.toes, -1, {});
+    }
     for (const size_t side : {kLeft, kRight}) MakeSole(side);
     PutOnGround();
     for (const size_t side : {kLeft, kRight}) {
@@ -85,9 +122,60 @@ class RigMaker {
     const std::vector<bool> own = Below(joint);
     for (const Mesh& mesh : person_.meshes) {
       for (size_t v = 0; v < mesh.joints.size(); ++v) {
-        if (WeightOn(own, mesh, v) >= kOwnWeight) use(Rotated(rig_.turn, mesh.positions[v]) + rig_.shift, mesh, v);
+        if (WeightOn(own, mesh, v) < kOwnWeight) continue;
+        Vec3 place = Rotated(rig_.turn, mesh.positions[v]) + rig_.shift;
+        for (const Levelled& part : levelled_) {
+          const Vec3 arm = place - Place(part.joint);
+          place = place + (Rotated(part.turn, arm) - arm) * WeightOn(part.below, mesh, v);
+        }
+        use(place, mesh, v);
       }
     }
+  }
+
+  // Whether half of the foot's length, toes and all, is on the ground that its lowest point is on.
+  bool StandsFlat(int foot) const {
+    float lowest = 1e30f;
+    ForOwnVertices(foot, [&](Vec3 place, const Mesh&, size_t) { lowest = std::min(lowest, place.y); });
+    const float ground = lowest + kFlatBand * rig_.leg_m;
+    std::array<float, 2> all{1e30f, -1e30f}, on_ground = all;
+    ForOwnVertices(foot, [&](Vec3 place, const Mesh&, size_t) {
+      for (std::array<float, 2>* extent : {&all, &on_ground}) {
+        if (extent == &on_ground && place.y > ground) continue;
+        *extent = {std::min((*extent)[0], place.z), std::max((*extent)[1], place.z)};
+      }
+    });
+    return all[1] < all[0] || on_ground[1] - on_ground[0] > 0.5f * (all[1] - all[0]);
+  }
+
+  // Feet of who is bound in a stride stand on their toes or their heels, or are in the air behind: turns the part that
+  // its sole lies level, in the reference pose and in what is read of the meshes. `upright` first: what brings the shin
+  // upright. `toes`: a part of its own that hangs on it, -1: none.
+  void Level(int joint, int toes, Quat upright) {
+    std::vector<bool> below = Below(joint), part = below;
+    for (int j = 0; toes >= 0 && j < Count(rig_.joints); ++j) {
+      if (IsBelow(rig_.joints, j, toes)) At(part, j) = false;
+    }
+    const Vec3 pivot = Place(joint);
+    Vec3 ahead = toes >= 0 ? Rotated(upright, Place(toes) - pivot) : Vec3{0, 0, 1};
+    ahead = Normalized(Vec3{ahead.x, 0, ahead.z});
+    if (!(ahead.z > kAhead)) ahead = {0, 0, 1};
+    std::vector<Vec2> outline;
+    ForOwnVertices(joint, [&](Vec3 place, const Mesh& mesh, size_t v) {
+      const Vec3 arm = Rotated(upright, place - pivot);
+      if (WeightOn(part, mesh, v) > kOwnPart) outline.push_back({Dot(arm, ahead), arm.y});
+    });
+    float slope_rad = 0;
+    if (!SlopeBelow(std::move(outline), kShortestSole * rig_.leg_m, &slope_rad)) return;
+    const Quat turn = Product(TurnAbout(Cross({0, 1, 0}, ahead), slope_rad), upright);
+    if (std::abs(slope_rad) > kSteepest_rad || AngleOf(turn) < kLevel_rad) return;
+    for (int j = 0; j < Count(rig_.joints); ++j) {
+      if (!At(below, j)) continue;
+      Vec3& place = At(rig_.reference.positions, j);
+      place = pivot + Rotated(turn, place - pivot);
+      At(rig_.reference.rotations, j) = Normalized(Product(turn, At(rig_.reference.rotations, j)));
+    }
+    levelled_.push_back({joint, std::move(below), turn});
   }
 
   std::vector<bool> Below(int joint) const {
@@ -256,8 +344,15 @@ class RigMaker {
     return count > 0 ? sum * (1 / count) : Place(joint) + Vec3{0, -1, 0};
   }
 
+  struct Levelled {
+    int joint;
+    std::vector<bool> below;  // it, and itself
+    Quat turn;
+  };
+
   const Avatar& person_;
   Rig& rig_;
+  std::vector<Levelled> levelled_;
 };
 
 }  // namespace
