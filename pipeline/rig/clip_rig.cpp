@@ -108,12 +108,14 @@ bool MakeClipRig(const Avatar& skeleton, const std::vector<NamedBone>& told, con
   bones.joints = skeleton.joints;
   const Pose rest = BindPose(skeleton.joints);
   const bool known = FindHumanoid(skeleton.joints, rest.positions, told, &h, why) && !h.quadruped && h.has_legs();
-  if (known && clip.keys > 0 && !Stands(h, rest)) {
+  const bool stands = !known || Stands(h, rest);
+  const bool has_figure = !skeleton.meshes.empty();
+  if (!stands && !has_figure && clip.keys > 0) {
     StandAtRest(h, clip, &bones.joints);
     if (Hang(h, BindPose(bones.joints)) > Hang(h, rest)) return MakeRig(bones, told, rig, why);
     bones.joints = skeleton.joints;
   }
-  if (known && HasArmsOfOneBone(h)) bones.meshes = skeleton.meshes;
+  if (known && (!stands || HasArmsOfOneBone(h))) bones.meshes = skeleton.meshes;
   return MakeRig(bones, told, rig, why);
 }
 

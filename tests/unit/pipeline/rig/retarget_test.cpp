@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "pipeline/rig/clip_rig.h"
 #include "pipeline/rig/motion_quality.h"
 #include "pipeline/rig/steps.h"
 #include "tests/unit/pipeline/test_human.h"
@@ -178,6 +179,39 @@ TEST(Retarget, WhoIsBoundSeatedWalksAsIfBoundStanding) {
       for (size_t v = 0; v < (apart == 0 ? here.size() : kFeet); ++v)
         ASSERT_LT(Length(here[v] - there[v]), 0.06f) << raised << " " << bent << " " << apart << ": vertex " << v;
     }
+  }
+}
+
+// Knees that give under the body, so that legs are straightest where their foot is on its heel or its toes.
+Clip Giving(Clip walk) {
+  for (int k = 0; k < walk.keys; ++k) {
+    const float phase = 2 * kPi * static_cast<float>(k) / static_cast<float>(walk.keys - 1);
+    Transform* const key = walk.transforms.data() + static_cast<size_t>(k) * 18;
+    for (const size_t leg : {size_t{10}, size_t{14}}) {
+      const float own = leg == 14 ? phase + kPi : phase, give = 0.9f * std::cos(own) * std::cos(own);
+      for (const auto& [joint, angle] :
+           {std::pair{leg, -0.5f * give}, {leg + 1, give}, {leg + 2, -0.5f * give - 0.5f * std::sin(own)}}) {
+        key[joint].rotation = Normalized(Product(key[joint].rotation, TurnAbout({1, 0, 0}, angle)));
+      }
+    }
+  }
+  return walk;
+}
+
+TEST(Retarget, WhoIsBoundSeatedLeadsOthersAsIfBoundStanding) {
+  const Avatar person = MadeHuman({});
+  const Rig standing = RigOf(person);
+  const Clip walk = Giving(MadeWalk(person));
+  const Retargeted expected = Retarget(standing, walk, standing, {.walks = true});
+  for (const auto& [raised, bent] : {std::array{1.5f, 1.5f}, {1.75f, 1.9f}, {0.1f, 1.9f}}) {
+    Avatar seated = MadeHuman({});
+    BindSeated(raised, bent, 0, &seated);
+    Rig source;
+    std::string why;
+    ASSERT_TRUE(MakeClipRig(seated, {}, walk, &source, &why)) << why;
+    const Retargeted made = Retarget(source, walk, standing, {.walks = true});
+    EXPECT_NEAR(made.walk_speed_mps, expected.walk_speed_mps, 0.05f * expected.walk_speed_mps) << raised << " " << bent;
+    EXPECT_NEAR(HipsHeight(standing, made.clip), HipsHeight(standing, expected.clip), 0.01f) << raised << " " << bent;
   }
 }
 
