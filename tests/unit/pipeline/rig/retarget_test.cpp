@@ -203,7 +203,7 @@ TEST(Retarget, WhoIsBoundSeatedLeadsOthersAsIfBoundStanding) {
   const Rig standing = RigOf(person);
   const Clip walk = Giving(MadeWalk(person));
   const Retargeted expected = Retarget(standing, walk, standing, {.walks = true});
-  for (const auto& [raised, bent] : {std::array{1.5f, 1.5f}, {1.75f, 1.9f}, {0.1f, 1.9f}}) {
+  for (const auto& [raised, bent] : {std::array{1.5f, 1.5f}, {1.75f, 1.75f}, {0.1f, 1.9f}}) {
     Avatar seated = MadeHuman({});
     BindSeated(raised, bent, 0, &seated);
     Rig source;
