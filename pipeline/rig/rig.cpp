@@ -91,9 +91,10 @@ class RigMaker {
   // about the hinge that they are bent about or, where they are straight, the thighs were raised about.
   static Vec3 FrontOfLeg(Vec3 part, Vec3 thigh, Vec3 shin) {
     const Vec3 along = Normalized(thigh), below = Normalized(shin);
-    if (along.z < kLies && Dot(along, below) > kFolded) return {0, 0, 1};
     const Vec3 bent = Cross(along, below);
-    return Cross(bent.x > kBent ? bent : Cross(along, {0, -1, 0}), part * -1);
+    const bool lies = along.z > kLies, folded = Dot(along, below) < kFolded;
+    if ((lies || folded) && bent.x > kBent) return Cross(bent, part * -1);
+    return lies ? Cross(Cross(along, {0, -1, 0}), part * -1) : Vec3{0, 0, 1};
   }
 
   void MakeLeg(size_t side) {

@@ -215,6 +215,16 @@ TEST(Retarget, WhoIsBoundSeatedLeadsOthersAsIfBoundStanding) {
   }
 }
 
+// As a bird's: what bends back is no knee that tells where the front is.
+TEST(Retarget, AKneeThatIsBoundBackwardsPointsAheadAllTheSame) {
+  for (const float apart : {-0.2f, 0.0f, 0.2f}) {
+    Avatar person = MadeHuman({});
+    BindSeated(-0.1f, -0.8f, apart, &person);
+    const Rig rig = RigOf(person);
+    for (const size_t side : {kLeft, kRight}) EXPECT_GT(Rotated(rig.leg_upper[side], {0, 0, 1}).z, 0.9f) << apart;
+  }
+}
+
 TEST(Retarget, AKneeIsOneHingeHoweverItIsBound) {
   for (const auto& [raised, bent, apart] : {std::array{0.0f, 0.1f, 0.0f},
                                             {1.5f, 1.5f, 0.3f},
