@@ -36,7 +36,9 @@ Error ConvertToGltf(const fs::path& path, TemporaryFolder* folder, fs::path* glt
   *gltf = folder->path() / path.filename().replace_extension(".glb");
   const std::string named = fs::absolute(path).string();
   const nlohmann::json settings{{"output", gltf->string()}, {"options", {{"input", named}}}};
-  const Error e = RunBlenderScript("convert/to_gltf.py", settings.dump(), {}, nullptr);
+  BlenderOptions options;
+  options.threads = 1;  // on more, some normals of a file that brings its own differ in their last bits from run to run
+  const Error e = RunBlenderScript("convert/to_gltf.py", settings.dump(), options, nullptr);
   return e ? InTheUsersWords(e, named, path) : Ok();
 }
 
