@@ -212,10 +212,11 @@ bool IsPlausible(float height_m) { return height_m >= kMinHeight_m && height_m <
 
 // As it is where that is a person's height, or that of the person below a tall hat: so people of one pack keep one
 // scale. Else in the unit that makes the skeleton a person's, else the usual height.
-float HeightByItself(const NormalizeOptions& options, const Avatar& avatar, float height,
+float HeightByItself(const NormalizeOptions& options, const Avatar& avatar, float height, float bound_lower,
                      std::vector<std::string>* warnings) {
   if (options.scale > 0) return height;
-  const float skeleton = HeightOfSkeleton(avatar, options.told) + BoundLowerBy(avatar, options.told);
+  float skeleton = HeightOfSkeleton(avatar, options.told);
+  if (skeleton > 0) skeleton += bound_lower;
   if (IsPlausible(height) || IsPlausible(skeleton)) {
     const char* doubt = height < kSmallest_m  ? "less than a child who walks"
                         : height > kTallest_m ? "taller than people in hats"
@@ -243,7 +244,8 @@ Error ScaleToHeight(const NormalizeOptions& options, Avatar* avatar, Mesh* body,
   for (const Mesh& mesh : avatar->meshes) {
     for (const Vec3 p : mesh.positions) extent.Add(p);
   }
-  const float height = extent.max.y - extent.min.y + BoundLowerBy(*avatar, options.told);
+  const float bound_lower = BoundLowerBy(*avatar, options.told);
+  const float height = extent.max.y - extent.min.y + bound_lower;
   if (!std::isfinite(height) || !(height > 1e-6f)) return Fail("the figure has no height");
   const float widest = std::max(extent.max.x - extent.min.x, extent.max.z - extent.min.z);
   if (height < kFlat * widest) {
@@ -251,7 +253,8 @@ Error ScaleToHeight(const NormalizeOptions& options, Avatar* avatar, Mesh* body,
         "the figure is " + Metres(widest / height) +
         " times as wide as it is high: lying or collapsed; set up and forward, or see flaneur avatar --list");
   }
-  const float wanted = options.height_m > 0 ? options.height_m : HeightByItself(options, *avatar, height, warnings);
+  const float wanted =
+      options.height_m > 0 ? options.height_m : HeightByItself(options, *avatar, height, bound_lower, warnings);
   *scale = wanted / height;
   if (options.height_m <= 0 && options.scale > 0) *scale = options.scale;
   const Vec3 hips = HipsAtRest(*avatar, options.told);

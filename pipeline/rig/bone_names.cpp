@@ -186,14 +186,15 @@ BodySide SideOf(const Token& token) {
   return BodySide::kNone;
 }
 
+template <typename Known>
+BodyPart PartIn(const Known& known, const std::string& words) {
+  const auto* found = std::find_if(known.begin(), known.end(), [&](const Word& word) { return word.text == words; });
+  return found == known.end() ? BodyPart::kNone : found->part;
+}
+
 BodyPart PartOf(const std::string& words) {
-  for (const Word& word : kWords) {
-    if (word.text == words) return word.part;
-  }
-  for (const Word& word : kOtherWords) {
-    if (word.text == words) return word.part;
-  }
-  return BodyPart::kNone;
+  const BodyPart part = PartIn(kWords, words);
+  return part == BodyPart::kNone ? PartIn(kOtherWords, words) : part;
 }
 
 BodyPart FingerOf(const std::vector<Token>& words) {
@@ -272,10 +273,8 @@ BoneName ReadInitial(const std::vector<Token>& words) {
   if (!left && initial != "d") return {};
   std::string joined;
   for (size_t w = 0; w + 1 < words.size(); ++w) joined += words[w];
-  for (const Word& word : kOtherWords) {
-    if (word.text == joined) return {word.part, left ? BodySide::kLeft : BodySide::kRight, -1};
-  }
-  return {};
+  const BodyPart part = PartIn(kOtherWords, joined);
+  return part == BodyPart::kNone ? BoneName{} : BoneName{part, left ? BodySide::kLeft : BodySide::kRight, -1};
 }
 
 BoneName ReadTokens(const std::vector<Token>& tokens) {
@@ -304,6 +303,13 @@ BoneName ReadTokens(const std::vector<Token>& tokens) {
   return read;
 }
 
+// `tokens`: the name's, without what most names of the rig begin with.
+BoneName ReadOwnName(const std::string& name, const std::vector<Token>& tokens) {
+  if (!IsAscii(name)) return ReadIdeographs(name);
+  if (name.starts_with("__")) return {};  // MakeHuman's links between bones
+  return ReadTokens(tokens);
+}
+
 // That most of the names begin with, and that is no word for a part or a side; empty where there is none.
 Token SharedFirst(const std::vector<std::vector<Token>>& names) {
   std::map<Token, size_t> begin;
@@ -323,9 +329,7 @@ Token SharedFirst(const std::vector<std::vector<Token>>& names) {
 
 BoneName ReadBoneName(const std::string& whole) {
   const std::string name = OwnName(whole);
-  if (!IsAscii(name)) return ReadIdeographs(name);
-  if (name.starts_with("__")) return {};  // MakeHuman's links between bones
-  return ReadTokens(Tokens(name));
+  return ReadOwnName(name, Tokens(name));
 }
 
 std::vector<BoneName> ReadWithoutOwner(const std::vector<std::string>& names) {
@@ -342,7 +346,7 @@ std::vector<BoneName> ReadWithoutOwner(const std::vector<std::string>& names) {
   }
   std::vector<BoneName> read;
   if (!owned) return read;
-  for (const std::vector<Token>& tokens : all) read.push_back(ReadTokens(tokens));
+  for (size_t i = 0; i < names.size(); ++i) read.push_back(ReadOwnName(OwnName(names[i]), all[i]));
   return read;
 }
 

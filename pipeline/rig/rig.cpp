@@ -136,17 +136,18 @@ class RigMaker {
 
   // Whether half of the foot's length, toes and all, is on the ground that its lowest point is on.
   bool StandsFlat(int foot) const {
-    float lowest = 1e30f;
-    ForOwnVertices(foot, [&](Vec3 place, const Mesh&, size_t) { lowest = std::min(lowest, place.y); });
-    const float ground = lowest + kFlatBand * rig_.leg_m;
-    std::array<float, 2> all{1e30f, -1e30f}, on_ground = all;
-    ForOwnVertices(foot, [&](Vec3 place, const Mesh&, size_t) {
-      for (std::array<float, 2>* extent : {&all, &on_ground}) {
-        if (extent == &on_ground && place.y > ground) continue;
-        *extent = {std::min((*extent)[0], place.z), std::max((*extent)[1], place.z)};
+    std::vector<Vec2> outline;  // ahead, up
+    ForOwnVertices(foot, [&](Vec3 place, const Mesh&, size_t) { outline.push_back({place.z, place.y}); });
+    const auto length_below = [&](float height) {
+      float back = 1e30f, front = -1e30f;
+      for (const Vec2 p : outline) {
+        if (p.y <= height) back = std::min(back, p.x), front = std::max(front, p.x);
       }
-    });
-    return all[1] < all[0] || on_ground[1] - on_ground[0] > 0.5f * (all[1] - all[0]);
+      return front - back;
+    };
+    float lowest = 1e30f;
+    for (const Vec2 p : outline) lowest = std::min(lowest, p.y);
+    return outline.empty() || length_below(lowest + kFlatBand * rig_.leg_m) > 0.5f * length_below(1e30f);
   }
 
   // Feet of who is bound in a stride stand on their toes or their heels, or are in the air behind: turns the part that
