@@ -159,11 +159,11 @@ Error RunBlenderScript(const fs::path& script, const std::string& settings_json,
   if (Error error = WriteTextFile(settings, settings_json)) return error;
   RunOptions run;
   run.log_file = options.log_file.empty() ? folder.path() / "log.txt" : options.log_file;
-  // A distribution's Blender takes the modules of the first python3 on PATH: let that be the one beside it, not a
-  // pyenv's or conda's.
+  // A distribution's Blender takes the modules of the first python3 on PATH: let that be the one beside it, or the
+  // distribution's where a script elsewhere starts it, not a pyenv's or conda's.
   const char* folders = std::getenv("PATH");
   run.environment = {"TMPDIR=" + folder.path().string(), "FLANEUR_READS=" + reads.string(),
-                     "PATH=" + blender.parent_path().string() + ":" + (folders ? folders : "")};
+                     "PATH=" + blender.parent_path().string() + ":/usr/bin:" + (folders ? folders : "")};
   const fs::path cache = ByteCodeCache();
   if (cache.empty()) run.environment.push_back("PYTHONDONTWRITEBYTECODE=1");
   else

@@ -6,6 +6,7 @@ import shutil
 import subprocess
 import tempfile
 import unittest
+import venv
 
 from support import run
 
@@ -128,6 +129,15 @@ class Formats(unittest.TestCase):
                      env=os.environ | {"FLANEUR_BLENDER": str(blender)})
         self.assertEqual(result.returncode, 0, result.stderr)
         self.assertIn("--threads 1 ", words.read_text())
+
+    def test_a_blender_that_a_script_elsewhere_starts_takes_no_python_that_happens_to_come_first(self):
+        blender, own = self.folder / "blender.sh", self.folder / "own"
+        blender.write_text(f'#!/bin/sh\nexec "{shutil.which(os.environ.get("FLANEUR_BLENDER", "blender"))}" "$@"\n')
+        blender.chmod(0o755)
+        venv.create(own, symlinks=True)  # without numpy, which Blender's exporter needs
+        result = run("flaneur", "avatar", self.folder / "figure.fbx", "-o", self.folder / "out.glb",
+                     env=os.environ | {"FLANEUR_BLENDER": str(blender), "PATH": f"{own / 'bin'}:{os.environ['PATH']}"})
+        self.assertEqual(result.returncode, 0, result.stderr)
 
     def test_a_scan_is_no_figure(self):
         result = run("flaneur", "avatar", self.folder / "town.ply", "-o", self.folder / "none.glb")
