@@ -8,8 +8,6 @@
 #include "pipeline/cli/far_town.h"
 #include "pipeline/cli/stage_inputs.h"
 #include "pipeline/cli/town_brightness.h"
-#include "pipeline/cli/trust.h"
-#include "pipeline/cli/up_option.h"
 #include "pipeline/cli/visit_places.h"
 #include "pipeline/cli/work_clips.h"
 #include "pipeline/core/temporary_folder.h"
@@ -34,48 +32,6 @@ void Fields(A& a, TownFacts* v) {
 namespace {
 
 namespace fs = std::filesystem;
-
-constexpr float kBareGroundMargin_m = 15;
-
-Error ReadTown(Baking* baking, Scene* town, Warnings* warnings) {
-  const TourSettings& s = baking->settings;
-  SceneSource source;  // of the town's own file
-  const auto read = [&](const fs::path& file, const ReadSceneOptions& options, Scene* part, SceneSource* of) -> Error {
-    if (Error e = CheckFilesOfModel(file)) return e;
-    return ReadScene(file, part, warnings, options, of);
-  };
-  if (!s.town.file.empty()) {
-    fs::path file;
-    Scene whole;
-    if (Error e = SourceFile(baking, 0, &file)) return e;
-    const std::string& crs = s.georeference.crs;
-    if (Error e = read(file, {crs == "none" ? "" : crs, UpAxisNamed(s.town_up)}, &whole, &source))
-      return BadSource(baking, 0, e);
-    town->origin_m = {whole.origin_m.x * s.town_scale, whole.origin_m.y * s.town_scale};
-    town->reference_system = whole.reference_system;
-    AppendScene(std::move(whole), s.town_scale, 0, {}, town);
-  }
-  for (const TownPart& part : s.parts) {
-    Scene scene;
-    if (Error e = read(part.file, {"", UpAxisNamed(part.up)}, &scene, nullptr))
-      return Fail(PlaceOfFile(s, part.file) + e.message);
-    AppendScene(std::move(scene), part.scale, part.yaw_deg * kPi / 180, part.position_m, town);
-  }
-  Georeference georeference = s.georeference;
-  if (georeference.crs.empty()) town->reference_system.clear();
-  if (!source.system.empty()) georeference.crs.clear();  // brought from degrees into metres by the reader
-  const Point2 by_reader = town->origin_m;
-  Point2 moved;
-  if (Error e = PlaceTown(georeference, kFarToDraw_m, 1, town, &moved, warnings))
-    return Fail("town.georeference: " + e.message);
-  baking->town_lowered_m = LowerToZero(kFarToDraw_m, town);
-  baking->town_moved_m = {by_reader.x + moved.x, by_reader.y + moved.y};
-  // Parts are put on one plane, a town's own model may stand on hills.
-  if (AddGroundWhereNone(s.town.file.empty(), kBareGroundMargin_m, town)) {
-    warnings->push_back("most things in the town have no ground under them; a square through their feet was added");
-  }
-  return Ok();
-}
 
 // Streets of tour.toml stand for those of the same name in the town.
 void AddUnlessNamed(Street street, TourData* tour) {

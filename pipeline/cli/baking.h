@@ -64,6 +64,9 @@ Error SourceFile(Baking* baking, size_t source, std::filesystem::path* file);
 // tour.toml.
 Error BadSource(Baking* baking, size_t source, const Error& error);
 
+// The town of all its models, where it is drawn and its obstacles are (read_town.cpp).
+Error ReadTown(Baking* baking, Scene* town, Warnings* warnings);
+
 // ---- The town (bake_town.cpp): what it is, obstacles, painting, check.
 void AddTownSteps(Baking* baking);
 void AddCheckStep(Baking* baking);

@@ -15,7 +15,7 @@
 #include "pipeline/footprint/check.h"
 #include "pipeline/footprint/map.h"
 #include "pipeline/io/geojson.h"
-#include "pipeline/io/scene_reader.h"
+#include "pipeline/io/scene_tiles.h"
 #include "runtime/base/file.h"
 #include "runtime/base/option_range.h"
 
@@ -23,7 +23,8 @@ namespace flaneur {
 namespace {
 
 struct CheckArguments {
-  std::filesystem::path obstacles, town, json, geojson, map, page;
+  std::filesystem::path obstacles, json, geojson, map, page;
+  std::vector<std::filesystem::path> towns;  // tiles of one
   CheckOptions options;
   ReadGeoJsonOptions reading;
   UpAxis up = UpAxis::kJudged;
@@ -33,9 +34,11 @@ struct CheckArguments {
 
 void AddOptions(CLI::App* app, CheckArguments* a) {
   app->add_option("OBSTACLES", a->obstacles, "GeoJSON file of obstacles, Flaneur's or any other")->required();
-  app->add_option(
-      "--town", a->town,
-      "The town they stand for, in any format that footprints reads: walls, ground, doors and exits are checked too");
+  app->add_option("--town", a->towns,
+                  "The town they stand for, in any format that footprints reads: walls, ground, doors and exits are "
+                  "checked too. "
+                  "Once for each tile of a city")
+      ->allow_extra_args(false);
   app->add_option("--json", a->json, "Write the findings as JSON");
   app->add_option("--geojson", a->geojson, "Write the findings as GeoJSON points, in the file's own coordinates");
   app->add_option("--map", a->map, "Draw a plan with the findings as SVG");
@@ -140,10 +143,11 @@ void MoveAsBaked(const GeoJsonFile& file, Scene* town) {
 // The town, with the obstacles moved to where it stands.
 Error ReadTown(const CheckArguments& a, GeoJsonFile* file, std::vector<Finding>* faults, TownToCheck* town) {
   std::vector<std::string> warnings;
-  if (Error error = ReadScene(a.town, &town->scene, &warnings, {"", a.up})) return error;
+  SceneSource source;
+  if (Error error = ReadTiles(a.towns, {"", a.up}, &town->scene, &source, &warnings)) return error;
   MoveAsBaked(*file, &town->scene);
   if (Error error = PrepareTown(town->scene, file->footprints, a.options, &town->prepared))
-    return Fail(a.town.string() + ": " + error.message);
+    return Fail(a.towns.front().string() + ": " + error.message);
   const Error error =
       PlaceObstacles(a.obstacles, a.reading, town->prepared, a.options.tolerance_m, file, &town->found, &warnings);
   for (const std::string& warning : warnings) std::fprintf(stderr, "flaneur: warning: %s\n", warning.c_str());
@@ -183,9 +187,9 @@ Error Run(const CheckArguments& a, int* status) {
     std::fprintf(stderr, "flaneur: warning: %s: %d features are no obstacles, streets or doors; left out\n",
                  a.obstacles.c_str(), file.skipped);
   TownToCheck town;
-  if (!a.town.empty())
+  if (!a.towns.empty())
     if (Error error = ReadTown(a, &file, &faults, &town)) return ReportFault(a, 901, error, faults);
-  const PreparedTown* const prepared = a.town.empty() || !town.found ? nullptr : &town.prepared;
+  const PreparedTown* const prepared = a.towns.empty() || !town.found ? nullptr : &town.prepared;
   std::vector<Finding> findings;
   if (Error error = CheckPrepared(file.footprints, prepared, WithStreetsAndGates(a.options, file), &findings))
     return ReportFault(a, 901, error, faults);

@@ -109,24 +109,35 @@ Error Bring(const std::string& to, Scene* scene) {
   return Ok();
 }
 
-class Joiner {
- public:
-  explicit Joiner(Scene* whole) : whole_(*whole) {}
+}  // namespace
 
-  void Add(Scene tile) {
-    const auto shapes = Shapes(tile);
+struct TileJoiner::Known {
+  Scene& whole;
+  std::filesystem::path first;  // tile; empty: none yet
+  KnownShapes shapes;
+  std::set<std::string> names;
+  std::map<std::string, int> numbers;  // the last that was tried behind a name
+  int twice = 0;
+
+  std::string Unique(const std::string& wish) {
+    std::string name = wish;
+    while (!names.insert(name).second) name = wish + "_" + std::to_string(++numbers.try_emplace(wish, 1).first->second);
+    return name;
+  }
+
+  void Append(Scene tile) {
     std::set<int> left_out;
-    for (const auto& [root, shape] : shapes) {
-      if (shape.corners > 0 && !shapes_.Insert(shape)) left_out.insert(root), ++twice_;
+    for (const auto& [root, shape] : Shapes(tile)) {
+      if (shape.corners > 0 && !shapes.Insert(shape)) left_out.insert(root), ++twice;
     }
-    const Vec3 move = GltfFromGround({static_cast<float>(tile.origin_m.x - whole_.origin_m.x),
-                                      static_cast<float>(tile.origin_m.y - whole_.origin_m.y), 0});
+    const Vec3 move = GltfFromGround({static_cast<float>(tile.origin_m.x - whole.origin_m.x),
+                                      static_cast<float>(tile.origin_m.y - whole.origin_m.y), 0});
     const Mat4 place = FromTranslationRotationScale(move, {0, 0, 0, 1}, {1, 1, 1});
-    const int meshes = Count(whole_.meshes), materials = Count(whole_.materials), images = Count(whole_.images);
+    const int meshes = Count(whole.meshes), materials = Count(whole.materials), images = Count(whole.images);
     std::vector<int> number(tile.nodes.size(), -1);
+    int kept = 0;
     for (int i = 0; i < Count(tile.nodes); ++i)
-      if (!left_out.contains(RootOf(tile, i))) At(number, i) = Count(whole_.nodes) + kept_++;
-    kept_ = 0;
+      if (!left_out.contains(RootOf(tile, i))) At(number, i) = Count(whole.nodes) + kept++;
     for (int i = 0; i < Count(tile.nodes); ++i) {
       if (At(number, i) < 0) continue;
       SceneNode& node = At(tile.nodes, i);
@@ -141,64 +152,62 @@ class Joiner {
       Shift(&material.normal_image, images);
     }
     for (int i = 0; i < Count(tile.nodes); ++i) {
-      if (At(number, i) >= 0) whole_.nodes.push_back(std::move(At(tile.nodes, i)));
+      if (At(number, i) >= 0) whole.nodes.push_back(std::move(At(tile.nodes, i)));
       else
         for (const int mesh : At(tile.nodes, i).meshes) At(tile.meshes, mesh) = {};  // keeps the numbers of the others
     }
-    whole_.meshes.insert(whole_.meshes.end(), std::make_move_iterator(tile.meshes.begin()),
-                         std::make_move_iterator(tile.meshes.end()));
-    whole_.materials.insert(whole_.materials.end(), tile.materials.begin(), tile.materials.end());
-    whole_.images.insert(whole_.images.end(), tile.images.begin(), tile.images.end());
+    whole.meshes.insert(whole.meshes.end(), std::make_move_iterator(tile.meshes.begin()),
+                        std::make_move_iterator(tile.meshes.end()));
+    whole.materials.insert(whole.materials.end(), tile.materials.begin(), tile.materials.end());
+    whole.images.insert(whole.images.end(), tile.images.begin(), tile.images.end());
   }
-
-  int twice() const { return twice_; }
-
- private:
-  std::string Unique(const std::string& wish) {
-    std::string name = wish;
-    while (!names_.insert(name).second)
-      name = wish + "_" + std::to_string(++numbers_.try_emplace(wish, 1).first->second);
-    return name;
-  }
-
-  Scene& whole_;
-  KnownShapes shapes_;
-  std::set<std::string> names_;
-  std::map<std::string, int> numbers_;  // the last that was tried behind a name
-  int twice_ = 0, kept_ = 0;
 };
 
-bool IsPlaced(const Scene& scene) { return scene.origin_m.x != 0 || scene.origin_m.y != 0; }
+TileJoiner::TileJoiner(Scene* whole) : known_(new Known{*whole, {}, {}, {}, {}}) {}
+TileJoiner::~TileJoiner() = default;
+int TileJoiner::twice() const { return known_->twice; }
 
-}  // namespace
+Error TileJoiner::Add(const std::filesystem::path& file, Scene tile) {
+  Scene& whole = known_->whole;
+  if (known_->first.empty()) {
+    known_->first = file;
+    whole.origin_m = tile.origin_m, whole.reference_system = tile.reference_system;
+  }
+  const std::string& system = whole.reference_system;
+  if (!system.empty() && !tile.reference_system.empty() && tile.reference_system != system)
+    if (Error error = Bring(system, &tile)) return Fail(file.string() + ": " + error.message);
+  if (IsOnMap(tile) != IsOnMap(whole))
+    return Fail(file.string() + ": has " + (IsOnMap(tile) ? "" : "no ") + "map coordinates, " + known_->first.string() +
+                " has " + (IsOnMap(whole) ? "some" : "none") + "; tiles of one city need the same");
+  if (std::hypot(tile.origin_m.x - whole.origin_m.x, tile.origin_m.y - whole.origin_m.y) > kFarTile_m)
+    return Fail(file.string() + ": lies more than 100 km from " + known_->first.string() +
+                "; these are not of one city");
+  known_->Append(std::move(tile));
+  return Ok();
+}
+
+bool IsOnMap(const Scene& scene) { return scene.origin_m.x != 0 || scene.origin_m.y != 0; }
+
+void WarnOfTwice(const TileJoiner& joiner, std::vector<std::string>* warnings) {
+  if (joiner.twice() > 0 && warnings)
+    warnings->push_back(std::to_string(joiner.twice()) + " things stand in two tiles with the same shape; taken once");
+}
 
 Error ReadTiles(const std::vector<std::filesystem::path>& files, const ReadSceneOptions& options, Scene* scene,
                 SceneSource* source, std::vector<std::string>* warnings) {
   if (files.size() == 1) return ReadScene(files[0], scene, warnings, options, source);
   *scene = {};
   std::set<std::filesystem::path> seen;
-  Joiner joiner(scene);
+  TileJoiner joiner(scene);
   for (const std::filesystem::path& file : files) {
     if (!seen.insert(file).second) return Fail(file.string() + ": is named twice; name each tile once");
     Scene tile;
     SceneSource own;
     if (Error error = ReadScene(file, &tile, warnings, options, &own)) return error;
-    if (seen.size() == 1) {
-      scene->origin_m = tile.origin_m, scene->reference_system = tile.reference_system;
-      *source = own;
-    }
-    const std::string& system = scene->reference_system;
-    if (!system.empty() && !tile.reference_system.empty() && tile.reference_system != system)
-      if (Error error = Bring(system, &tile)) return Fail(file.string() + ": " + error.message);
-    if (IsPlaced(tile) != IsPlaced(*scene))
-      return Fail(file.string() + ": has " + (IsPlaced(tile) ? "" : "no ") + "map coordinates, " + files[0].string() +
-                  " has " + (IsPlaced(*scene) ? "some" : "none") + "; tiles of one city need the same");
-    if (std::hypot(tile.origin_m.x - scene->origin_m.x, tile.origin_m.y - scene->origin_m.y) > kFarTile_m)
-      return Fail(file.string() + ": lies more than 100 km from " + files[0].string() + "; these are not of one city");
-    joiner.Add(std::move(tile));
+    if (seen.size() == 1) *source = own;
+    if (Error error = joiner.Add(file, std::move(tile))) return error;
   }
-  if (joiner.twice() > 0 && warnings)
-    warnings->push_back(std::to_string(joiner.twice()) + " things stand in two tiles with the same shape; taken once");
+  WarnOfTwice(joiner, warnings);
   return Ok();
 }
 

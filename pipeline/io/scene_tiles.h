@@ -1,6 +1,7 @@
 // One town from the tiles of a city.
 #pragma once
 #include <filesystem>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -10,12 +11,32 @@
 
 namespace flaneur {
 
-// Reads all files, brings them to one origin, and where they name other systems than the first one into that. What
+// Puts tiles together: brings them to one origin, and where they name other systems than the first one into that. What
 // stands in two tiles, as buildings on their border do, is taken once: of the same name and shape, or of the same
 // shape. Of the same name with another shape both are taken, the later one under a new name. The result does not depend
-// on the order of the files but in which of two equal things is kept. Errors: as ReadScene; a file without map
-// coordinates among others that have some (names it).
+// on the order of the tiles but in which of two equal things is kept.
+class TileJoiner {
+ public:
+  explicit TileJoiner(Scene* whole);  // empty
+  ~TileJoiner();
+  // `file`: what messages call it. Errors: with map coordinates among tiles that have none, or the other way round; far
+  // from the first one; cannot be brought into its system.
+  Error Add(const std::filesystem::path& file, Scene tile);
+  int twice() const;  // things that were there already
+
+ private:
+  struct Known;
+  std::unique_ptr<Known> known_;
+};
+
+// Whether a file has its things on a map, and not about a zero of its own.
+bool IsOnMap(const Scene& scene);
+
+// Reads all files and puts them together. `source`: the first one's. Errors: as ReadScene and TileJoiner.
 Error ReadTiles(const std::vector<std::filesystem::path>& files, const ReadSceneOptions& options, Scene* scene,
                 SceneSource* source, std::vector<std::string>* warnings);
+
+// For who reads the tiles themselves.
+void WarnOfTwice(const TileJoiner& joiner, std::vector<std::string>* warnings);
 
 }  // namespace flaneur

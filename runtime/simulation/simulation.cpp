@@ -124,7 +124,7 @@ void PlaceCamera(const Scenario& scenario, Simulation* s) {
     s->visitor.camera.view.yaw_rad = LookAt_rad(s->visitor.tour, 0);
   } else if (const int cell = BestFreeCell(s->town.walkable); cell >= 0) {
     s->visitor.camera.view.position = CellCenter(s->town.walkable, cell);
-    s->visitor.camera.view.yaw_rad = OpenestView_rad(s->town.walkable, s->visitor.camera.view.position);
+    s->visitor.camera.view.yaw_rad = BestView_rad(s->town.walkable, s->visitor.camera.view.position);
   }
 }
 

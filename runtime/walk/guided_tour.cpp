@@ -314,7 +314,7 @@ void PlaceStops(const VisitorInTown& v) {
       moved.push_back(k + 1);
       stop.position_m = CellCenter(w, cells[k]);
     }
-    if (!stop.yaw_rad) stop.yaw_rad = OpenestView_rad(w, stop.position_m);
+    if (!stop.yaw_rad) stop.yaw_rad = BestView_rad(w, stop.position_m);
     kept.push_back(std::move(stop));
   }
   if (moved.size() == 1)

@@ -7,8 +7,9 @@ namespace flaneur {
 struct Walkable;
 struct VisitorInTown;
 
-// Where to look from p where nobody has said it: over open ground, and of such directions to where the town is.
-float OpenestView_rad(const Walkable& walkable, Vec2 p);
+// Where to look from p where nobody has said it: to where most is to be seen whole, neither right before the eyes nor
+// far.
+float BestView_rad(const Walkable& walkable, Vec2 p);
 
 struct Start {
   Vec2 position_m;

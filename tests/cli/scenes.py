@@ -138,3 +138,26 @@ def write_box_town(path, houses=4, spoil=None):
             positions = spoil(positions)
         parts.append((f"house_{i + 1}", {"flaneur_kind": "building"}, positions, indices))
     write_town(path, parts)
+
+
+def cities(path, at, system, scale=(1.0, 1.0), turned=False):
+    """A CityJSON town of six houses in two rows, 40 units apart, each of its own size; turned: not along the axes."""
+    vertices, objects = [], {}
+    for k in range(6):
+        w, d, x0, y0 = 7 + 0.5 * k, 9 - 0.7 * k, 40.0 * (k % 3), 30.0 * (k // 3)
+        if not turned and k % 3 == 2:
+            w, d = 7 + 0.5 * (k - 2), 9 - 0.7 * (k - 2)  # as the first of its row
+        first = len(vertices)
+        for z in (0, 6):
+            for u, v in ((0, 0), (w, 0), (w, d), (0, d)):
+                c, s = (0.8, 0.6) if turned else (1, 0)
+                x, y = x0 + c * u - s * v, y0 + s * u + c * v
+                x, y = (y, x) if scale[0] < scale[1] < 1 else (x, y)  # latitude first
+                vertices.append([at[0] + scale[0] * x, at[1] + scale[1] * y, z])
+        faces = [[[0, 3, 2, 1]], [[4, 5, 6, 7]]] + [[[i, (i + 1) % 4, 4 + (i + 1) % 4, 4 + i]] for i in range(4)]
+        solid = {"type": "Solid", "lod": "2", "boundaries": [[[[first + i for i in ring] for ring in face] for face in faces]]}
+        objects[f"house_{k}"] = {"type": "Building", "geometry": [solid]}
+    path.write_text(json.dumps({
+        "type": "CityJSON", "version": "2.0", "metadata": {"referenceSystem": system} if system else {}, "vertices": vertices,
+        "CityObjects": objects}))
+    return path

@@ -254,6 +254,23 @@ TEST(Tour, AStopThatSaysNoDirectionLooksOverOpenGroundToTheTown) {
   EXPECT_FLOAT_EQ(*Started(TourTown(0)).visitor.tour.stops[1].yaw_rad, kPi / 2) << "who says one has it";
 }
 
+// A plain with all of the town's mass far in the south, and one row of houses in sight in the north.
+TEST(Tour, AStopThatSaysNoDirectionLooksToWhatIsToBeSeenNotOverAnEmptyPlain) {
+  TourPack pack = TourTown(0);
+  pack.guide.clear();
+  pack.ground = Share({{0, 0}, 1, 400, 400, std::vector<float>(160000, 0), std::vector<uint8_t>(160000, 3)});
+  pack.places.clear();
+  pack.obstacles.polygons = {Box({100, 5}, {300, 40}), Box({170, 352}, {230, 360})};
+  for (const float near_m : {7.0f, 2.5f}) {  // a wall in the west
+    pack.obstacles.polygons.resize(2);
+    pack.obstacles.polygons.push_back(Box({180 - near_m, 290}, {179 - near_m, 325}));
+    pack.path = {Halt({180, 310}, 0, 3), Halt({200, 300}, 0, 3)};
+    pack.path[0].yaw_rad.reset();
+    const Simulation s = Started(pack);
+    EXPECT_GT(DirectionOf(s.visitor.camera.view.yaw_rad).y, 0.7f) << near_m;
+  }
+}
+
 TourStop Spoken() {
   TourStop stop;
   stop.caption = "The well has never run dry.";
