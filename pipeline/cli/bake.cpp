@@ -28,7 +28,13 @@ constexpr double kShareOfFreeMemory = 0.8;
 Error RequireFile(const TourSettings& s, const fs::path& file) {
   std::error_code ec;
   if (file.empty() || fs::is_regular_file(file, ec)) return Ok();
-  return Fail(PlaceOfFile(s, file) + file.string() + ": no such file");
+  const bool there = fs::exists(file, ec);
+  return Fail(PlaceOfFile(s, file) + file.string() + (there ? ": a folder or device, no file" : ": no such file"));
+}
+
+// Where tour.toml names the file that it is about.
+Error WithPlace(const Baking& baking, Error error) {
+  return error ? Fail(PlaceOfMessage(baking.settings, error.message) + error.message) : error;
 }
 
 // All of them before the first minute of work.
@@ -202,7 +208,7 @@ Error Bake(const std::vector<fs::path>& tours, const BakeOptions& options, std::
   std::vector<Error> of_steps;
   const double memory_mb = options.memory_mb > 0 ? options.memory_mb : kShareOfFreeMemory * FreeMemory_mb();
   if (!bakings.empty()) RunSteps(bakings, {at_a_time, memory_mb}, &of_steps);
-  for (size_t i = 0; i < of_steps.size(); ++i) errors[places[i]] = std::move(of_steps[i]);
+  for (size_t i = 0; i < of_steps.size(); ++i) errors[places[i]] = WithPlace(*bakings[i], std::move(of_steps[i]));
   Error first;
   for (size_t i = 0; i < all.size(); ++i) {
     baked->push_back(Told(tours[i], all[i]));
@@ -269,7 +275,7 @@ Error BakeStep(const fs::path& tour, const BakeOptions& options, const std::stri
   for (size_t i = 0; i <= wanted; ++i) {
     const bool there = i != wanted && baking.steps[i].in_store && baking.steps[i].is_file;
     if (!needed[i] || there) continue;
-    if (Error e = DoStep(baking.store, &baking.steps[i])) return e;
+    if (Error e = DoStep(baking.store, &baking.steps[i])) return WithPlace(baking, std::move(e));
   }
   return Ok();
 }

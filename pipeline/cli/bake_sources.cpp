@@ -169,7 +169,8 @@ Error BadSource(Baking* baking, size_t source, const Error& error) {
   const SourceSettings& settings = SourceOf(*baking, source);
   if (index >= 0) DropEntry(baking->store, At(baking->steps, index).known_key);
   const std::string named = index < 0 ? "" : settings.file.string() + " made something that cannot be used: ";
-  return Fail(PlaceOfFile(baking->settings, settings.file) + named + error.message);
+  const std::string place = PlaceOfMessage(baking->settings, error.message);
+  return Fail((place.empty() ? PlaceOfFile(baking->settings, settings.file) : place) + named + error.message);
 }
 
 }  // namespace flaneur

@@ -391,6 +391,22 @@ std::string PlaceOfFile(const TourSettings& settings, const std::filesystem::pat
   return place == settings.places_of_files.end() ? "" : place->second + ": ";
 }
 
+std::string PlaceOfMessage(const TourSettings& settings, std::string_view message) {
+  std::string found;
+  for (bool more = true; more;) {
+    more = false;
+    for (const auto& [file, place] : settings.places_of_files) {
+      const std::string named = file.string() + ": ";
+      if (!message.starts_with(named)) continue;
+      found = place + ": ";
+      message.remove_prefix(named.size());
+      more = true;
+      break;
+    }
+  }
+  return found;
+}
+
 std::vector<std::string> KnownSettings() {
   // One empty table of each kind makes every field be asked for.
   const toml::table root = toml::parse(

@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <map>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "pipeline/avatar/decimate.h"
@@ -84,6 +85,8 @@ struct TourSettings : TourData {
 
 // The place for the beginning of a message: "tour.toml:12: avatar.file: ". Empty where it is not known.
 std::string PlaceOfFile(const TourSettings& settings, const std::filesystem::path& file);
+// The same of the file that a message begins with; of "person.glb: walk.bvh: ..." the last one that tour.toml names.
+std::string PlaceOfMessage(const TourSettings& settings, std::string_view message);
 
 // Errors: unreadable, not TOML, an unknown key (with the nearest known one), a wrong type, a value out of range, no
 // town, no avatar, two of a name; each as FILE:LINE.

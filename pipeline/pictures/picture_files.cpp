@@ -69,7 +69,7 @@ Error ScaledPicture(const fs::path& file, int most_px, std::vector<uint8_t>* byt
   const PictureModule* module = nullptr;
   if (Error e = Module(&module)) return e;
   const std::string why = module->scaled(file.string(), most_px, bytes);
-  return why.empty() ? Ok() : Fail(file.string() + ": is no picture that can be read: " + OneLine(why));
+  return why.empty() ? Ok() : Fail(file.string() + ": no picture that can be read: " + OneLine(why));
 }
 
 }  // namespace flaneur

@@ -13,7 +13,8 @@ constexpr float kLetterShare = 1 / 20.0f, kLetterWidthShare = 1 / 24.0f;  // of 
 constexpr float kTextWidthShare = 0.84f, kMargin = 0.55f;                 // of the picture, in letters
 constexpr float kMostShare = 0.5f;                                        // of the picture's height
 constexpr float kSmaller = 0.94f, kLeastSize = 0.5f;
-constexpr float kLeastInParts = 0.75f;  // of the wished size, letters are before a caption is shown in parts
+constexpr float kLeastInParts = 0.75f;   // of the wished size, letters are before a caption is shown in parts
+constexpr float kLeastForWords = 0.75f;  // of the usual size, letters are before words are broken
 constexpr float kMinLetter_px = 12;
 constexpr int kMinPicture_px = 64;
 
@@ -72,13 +73,19 @@ TextLayout LayOut(const std::string& text, const CaptionStyle& style, float widt
   const float least_high_px = passed >= 0 ? std::max(least_px, usual_px * style.size * kLeastInParts) : least_px;
   const auto most_px = [&] { return height_px * kMostShare - 2 * kMargin * letters.letter_px; };
   TextLayout layout = lay_out();
-  const auto may_shrink_to_px = [&] {
-    return layout.broken_words ? least_px : layout.height_px > most_px() ? least_high_px : letters.letter_px;
+  const auto shrink = [&](float to_px, const auto& while_it_helps) {
+    while (letters.letter_px > to_px && while_it_helps()) {
+      letters.letter_px = std::max(to_px, letters.letter_px * kSmaller);
+      layout = lay_out();
+    }
   };
-  while (letters.letter_px > may_shrink_to_px()) {
-    letters.letter_px = std::max(least_px, letters.letter_px * kSmaller);
+  const float wished_px = letters.letter_px;
+  shrink(std::max(kMinLetter_px, usual_px * kLeastForWords), [&] { return layout.broken_words; });
+  if (layout.broken_words) {  // an address as long as two lines: nobody reads better for small letters
+    letters.letter_px = wished_px;
     layout = lay_out();
   }
+  shrink(least_high_px, [&] { return layout.height_px > most_px(); });
   if (layout.height_px <= height_px * kMostShare) return layout;
   if (passed >= 0) return PartOf(layout, most_px(), passed, part);
   const float line_px = layout.height_px / static_cast<float>(layout.lines.size());

@@ -173,6 +173,24 @@ class BadInput(ProgramTest):
                 self.assert_fails(self.bake(self.write_tour(town, avatar)), words)
                 self.assertEqual([p.name for p in (self.folder / "out").iterdir()], ["cache"])
 
+    def test_a_file_that_is_of_no_use_is_told_of_where_the_tour_names_it(self):
+        self.with_avatar()
+        write_box_town(self.folder / "town.glb")
+        (self.folder / "junk.bin").write_bytes(b"junk" * 100)
+        whole = self.write_tour().read_text()
+        after_avatar = whole.index("[crowd]")
+        for key, table in (("stop.sound", '[[stop]]\nposition_m = [0, 0]\nsound = "%s"\n'), ("sound.file", '[[sound]]\nkind = "loop"\nposition_m = [0, 0]\nfile = "%s"\n'),
+                           ("hotspot.picture", '[[hotspot]]\nposition_m = [0, 0]\ntitle = "x"\npicture = "%s"\n'),
+                           ("title_page.logo", '[title_page]\nlogo = "%s"\n'), ("painting.file", '[painting]\nfile = "%s"\n'),
+                           ("town.part.file", '[[town.part]]\nfile = "%s"\n'), ("avatar.part.file", '[[avatar.part]]\nfile = "%s"\n'),
+                           ("avatar.clip.file", '[[avatar.clip]]\nname = "walk"\nfile = "%s"\n')):
+            for name, words in (("junk.bin", "junk.bin"), (".", "a folder")):
+                with self.subTest(key=key, name=name):
+                    path = self.folder / "tour.toml"
+                    path.write_text(whole[:after_avatar] + table % name + whole[after_avatar:])
+                    line = path.read_text()[:path.read_text().index(f'"{name}"')].count("\n") + 1
+                    self.assert_fails(self.bake(path), f"tour.toml:{line}: {key}: ", words)
+
     def test_a_script_says_what_is_wrong_with_its_options(self):
         write_box_town(self.folder / "town.glb")
         script = SOURCE / "blender_scripts/townspeople/build.py"

@@ -98,6 +98,20 @@ TEST(Caption, LeavesHalfOfThePictureFreeHoweverMuchItSays) {
   }
 }
 
+TEST(Caption, WithAnAddressAsLongAsTwoLinesIsReadAsWellAsAnyOther) {
+  Fonts fonts;
+  const std::string words = "The well has never run dry.", address = std::string(150, 'm');
+  for (const float size : {1.0f, 1.65f}) {
+    const auto height_px = [&](const std::string& text) {
+      return LayOutCaption(text, {"en", size, false}, 1280, 720, &fonts).height_px;
+    };
+    const int one_px = height_px("m"), line_px = height_px("m\nm") - one_px;
+    EXPECT_NEAR(height_px(address + " " + words), one_px + 3 * line_px, line_px + 4) << size;
+    EXPECT_LE(height_px(std::string(size > 1 ? 33 : 42, 'm')), one_px)
+        << "a little too long: in smaller letters, whole";
+  }
+}
+
 TEST(Caption, TooLongForThePictureComesInPartsWhileItIsRead) {
   Fonts fonts;
   std::string text;
