@@ -12,7 +12,7 @@ namespace {
 constexpr const char* kBlenderStagesVersion = "2";
 
 // The same for impostors alone.
-constexpr const char* kImpostorVersion = "10";
+constexpr const char* kImpostorVersion = "11";
 
 // Of what this program computes in seconds: any other build of it may compute something else.
 const std::string& ThisProgram() {

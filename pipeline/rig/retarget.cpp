@@ -8,13 +8,15 @@
 #include "pipeline/core/rotation.h"
 #include "pipeline/rig/source_motion.h"
 #include "pipeline/rig/steps.h"
+#include "pipeline/rig/stiff_legs.h"
 #include "runtime/base/array.h"
 
 namespace flaneur {
 namespace {
 
-constexpr float kShortestStride = 0.5f, kStrideStep = 0.025f;  // of the source's, in legs
-constexpr std::ptrdiff_t kEasedShare = 10;                     // of a cycle's keys, one of so many, hips take to sink
+// Of the source's, in legs; toys swing their legs of one bone farther than any other leg reaches.
+constexpr float kShortestStride = 0.5f, kShortestOfStiff = 0.35f, kStrideStep = 0.025f;
+constexpr std::ptrdiff_t kEasedShare = 10;  // of a cycle's keys, one of so many, hips take to sink
 // Of the leg's length: how much lower hips may be for their steps' sake, and than they are whatever the steps.
 constexpr float kSunk = 0.024f, kSunkMore = 0.01f;
 constexpr float kMaxFlatten_rad = 0.6f;       // that a standing foot may be turned to lie flat
@@ -35,6 +37,7 @@ struct Wanted {
   std::map<int, Quat> rotations;  // world
   Vec3 middle;                    // of the hip joints
   std::map<int, Vec3> positions;  // world, of joints that hang elsewhere than on their limb
+  std::map<int, float> lifts;     // of legs of one bone
 };
 
 class Retargeter {
@@ -45,6 +48,7 @@ class Retargeter {
         t_(target),
         keys_(source_.motion().poses.size()),
         scale_(target.leg_m / source.leg_m),
+        walks_(options.walks),
         wider_(options.wider * target.leg_m) {}
 
   Retargeted Make(const Clip& clip) {
@@ -62,12 +66,12 @@ class Retargeter {
       wanted_[k].middle = {rest.x + scale_ * (now.x - from.x), HipHeight(now.y), rest.z + scale_ * (now.z - from.z)};
     }
     const bool stiff = !BendsKnees(t_);
-    if (stiff) StandOnStiffLegs();
-    else SetStride();
+    const float stiff_mps = stiff ? StandOnStiffLegs() : 0;
+    if (!stiff) SetStride();
     Retargeted out;
     for (size_t k = 0; k < keys_; ++k) poses_.push_back(stiff ? Posed(k) : Finish(k));
     out.source_slide = source_.slide();
-    out.walk_speed_mps = stiff ? 0 : scale_ * stride_ * source_.motion().speed;
+    out.walk_speed_mps = stiff ? stiff_mps : scale_ * stride_ * source_.motion().speed;
     out.clip = ClipOf(clip);
     return out;
   }
@@ -249,9 +253,11 @@ class Retargeter {
       lower_ = Eased(LoweredHips());
       return Mean(lower_);
     };
-    const float least = std::max(scale_ * Mean(Eased(source_.Sinks())), sinks(kShortestStride));
+    const float theirs = source_.stiff() ? 0 : scale_ * Mean(Eased(source_.Sinks()));
+    const float least_stride = source_.stiff() ? kShortestOfStiff : kShortestStride;
+    const float least = std::max(theirs, sinks(least_stride));
     const float enough = std::max(kSunk * t_.leg_m, least + kSunkMore * t_.leg_m);
-    const float shortest = source_.motion().speed > 0 ? kShortestStride : 1.0f;
+    const float shortest = source_.motion().speed > 0 ? least_stride : 1.0f;
     float stride = 1;
     while (sinks(stride) > enough && stride > shortest) stride -= kStrideStep;
     for (size_t k = 0; k < keys_; ++k) wanted_[k].middle.y -= lower_[k];
@@ -379,21 +385,43 @@ class Retargeter {
     return sole;
   }
 
-  // Legs of one bone point where the source's ankles are, and the hips are as high as the lower one of them stands.
-  void StandOnStiffLegs() {
+  // Legs of one bone point where the source's ankles are. Who walks on them steps from one to the other; else the hips
+  // are as high as the lower one of them stands. Returns how fast they walk.
+  float StandOnStiffLegs() {
+    const std::array<Soles, 2> soles = PointStiffLegs(0);
+    if (!walks_ || !source_.motion().loops) return 0;
+    const StiffWalk walk = Stepped(PointStiffLegs(-Stepped(soles).aside_rad));
+    for (size_t k = 0; k < walk.middle.size(); ++k) {
+      wanted_[k].middle = walk.middle[k];
+      for (const size_t side : {kLeft, kRight}) wanted_[k].lifts[t_.legs[side].upper] = walk.lift[side][k];
+    }
+    return walk.speed;
+  }
+
+  StiffWalk Stepped(const std::array<Soles, 2>& soles) const {
+    return WalkOnStiffLegs(soles, source_.motion().step_s, t_.leg_m);
+  }
+
+  // Turned so much to the left. Returns the soles against the middle of the hips.
+  std::array<Soles, 2> PointStiffLegs(float turn_rad) {
+    const Quat turn = TurnAbout({0, 1, 0}, turn_rad);
+    std::array<Soles, 2> soles;
     for (size_t k = 0; k < keys_; ++k) {
       for (const size_t side : {kLeft, kRight}) {
         const Vec3 way = source_.Ankle(k, side) - source_.Place(k, s_.legs[side].upper);
-        const Quat frame = LegFrame(way, Cross(way, Rotated(frames_.at({k, side}).first, {1, 0, 0})));
+        const Quat own = SourceFrame(k, s_.legs[side].upper, s_.leg_upper[side]);
+        const Quat frame = Product(turn, LegFrame(way, Cross(way, Rotated(own, {1, 0, 0}))));
         SetLeg(k, side, frame, frame);
       }
       const Pose pose = Posed(k);
       float lowest = 1e30f;
       for (const size_t side : {kLeft, kRight}) {
-        for (const Vec3 p : SoleOf(pose, side)) lowest = std::min(lowest, p.y);
+        soles[side].push_back(SoleOf(pose, side));
+        for (Vec3& p : soles[side].back()) lowest = std::min(lowest, p.y), p = p - wanted_[k].middle;
       }
       wanted_[k].middle.y -= lowest;
     }
+    return soles;
   }
 
   // Bends the knee so that the ankle is where the foot is set.
@@ -454,6 +482,7 @@ class Retargeter {
       } else if (parent >= 0) {
         pose.positions[j] = Hung(joint, parent, pose);
       }
+      if (const auto lift = wanted.lifts.find(joint); lift != wanted.lifts.end()) pose.positions[j].y += lift->second;
     };
     for (size_t j = 0; j < joints; ++j) place(j);
     // Hands that hang elsewhere than on their arms come to them, and all that is on them follows.
@@ -516,6 +545,7 @@ class Retargeter {
   std::map<std::pair<size_t, size_t>, std::pair<Quat, Quat>> frames_;  // of the legs, by key and side
   std::array<Quat, 2> flatten_;
   std::array<std::vector<Vec3>, 2> ankles_;
+  bool walks_;
   float wider_;
   float stride_ = 1;  // of the source's, in legs
   std::vector<float> lower_;

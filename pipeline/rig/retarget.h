@@ -7,8 +7,7 @@ namespace flaneur {
 
 struct Retargeted {
   Clip clip;  // on the target's joints, in the target's own space
-  // In the target's unit, along the reference pose's +Z; 0: the clip goes nowhere, or on legs of one bone, whose soles
-  // alone tell.
+  // In the target's unit, along the reference pose's +Z; 0: the clip goes nowhere.
   float walk_speed_mps = 0;
   float source_slide = 0;  // of the source's soles over the ground, as a share of its walking speed
 };

@@ -114,7 +114,7 @@ bool OpenWalk(const File& file, const std::string& clip, Walk* walk) {
   CutToCycle(motion.skeleton.joints, &made);
   if (!MakeClipRig(motion.skeleton, motion.told, made, &rig, &why)) return false;
   *walk = {clip.empty() ? file.name : clip, motion.clip_names[found], file.path};
-  walk->hips = HipsHeight(rig, made);
+  walk->hips = std::min(HipsHeight(rig, made), 1.0f);  // toys hop
   return true;
 }
 

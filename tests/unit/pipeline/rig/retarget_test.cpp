@@ -5,6 +5,7 @@
 #include "pipeline/rig/clip_rig.h"
 #include "pipeline/rig/motion_quality.h"
 #include "pipeline/rig/steps.h"
+#include "runtime/base/array.h"
 #include "tests/unit/pipeline/test_human.h"
 
 namespace flaneur {
@@ -249,6 +250,77 @@ TEST(Retarget, LegsOfOneBoneWithoutAMeshReachTheGround) {
   const Rig rig = RigOf(human);
   EXPECT_FALSE(BendsKnees(rig));
   EXPECT_NEAR(rig.leg_m, 0.92f * 0.91f, 0.02f) << "hips at 0.92 m, ankles at a tenth of it";
+}
+
+// A toy: a box a leg, from the hip down, with a shoe of any length that nothing turns against it.
+Avatar MadeToy(float leg_m, float before_m, float behind_m) {
+  Avatar toy = MadeHuman({.leg_m = leg_m});
+  for (const size_t j : {11u, 12u, 13u, 15u, 16u, 17u}) toy.joints[j].name = "cloth", toy.joints[j].parent = 0;
+  Mesh& body = toy.meshes[0];
+  body = {};
+  for (const uint16_t joint : {uint16_t{10}, uint16_t{14}}) {
+    const float x = joint == 10 ? 0.09f : -0.09f;
+    AddBox({x, 0.05f, 0}, {x, leg_m, 0}, 0.05f, joint, &body);
+    AddBox({x, 0.04f, -behind_m}, {x, 0.04f, before_m}, 0.04f, joint, &body);
+  }
+  return toy;
+}
+
+TEST(Retarget, LegsOfOneBoneStepWithoutSlidingOrSinking) {
+  const Avatar source = MadeHuman({});
+  for (const auto& [leg_m, before_m, behind_m] :
+       {std::array{0.8f, 0.1f, 0.05f}, {0.5f, 0.02f, 0.02f}, {0.25f, 0.12f, 0.06f}, {0.9f, 0.3f, 0.1f}}) {
+    const Avatar toy = MadeToy(leg_m, before_m, behind_m);
+    const Rig rig = RigOf(toy);
+    ASSERT_FALSE(BendsKnees(rig));
+    const Retargeted made = Retarget(RigOf(source), MadeWalk(source), rig, {.walks = true});
+    EXPECT_GT(made.walk_speed_mps, 0.5f * leg_m);
+    const float step_s = made.clip.duration_s / static_cast<float>(made.clip.keys - 1);
+    int swings = 0;
+    for (int k = 0; k + 1 < made.clip.keys; ++k) {
+      const Pose now = PoseAt(rig, made.clip, k), next = PoseAt(rig, made.clip, k + 1);
+      float lowest = 1, slid = 1;
+      for (const RigLeg& leg : rig.legs) {
+        float low = 1;
+        for (const SolePoint& point : leg.sole) {
+          const Vec3 a = PlaceOf(point, now), b = PlaceOf(point, next);
+          low = std::min(low, a.y);
+          if (std::max(a.y, b.y) > 0.024f * leg_m) continue;
+          const Vec3 way = b - a + Vec3{0, 0, made.walk_speed_mps * step_s};
+          slid = std::min(slid, std::hypot(way.x, way.z) / (made.walk_speed_mps * step_s));
+        }
+        lowest = std::min(lowest, low);
+        swings += low > 0.03f * leg_m;
+      }
+      EXPECT_NEAR(lowest, 0, 0.002f * leg_m) << leg_m << " " << k;
+      EXPECT_LT(slid, 0.1f) << leg_m << " " << k << ": something stands";
+    }
+    EXPECT_GT(swings, made.clip.keys / 2) << leg_m << ": a foot is in the air most of the time";
+  }
+}
+
+TEST(Retarget, WhoSwingsLegsOfOneBoneWideMakesNobodyDoTheSplits) {
+  Avatar toy = MadeToy(0.16f, 0.12f, 0.1f);
+  Clip wide{"walk", 0.7f, 21, {}};
+  for (int k = 0; k < 21; ++k) {
+    for (size_t j = 0; j < toy.joints.size(); ++j) {
+      Transform t = toy.joints[j].rest;
+      const float swing = 1.05f * std::sin(2 * kPi * static_cast<float>(k) / 20);
+      if (j == 10 || j == 14) t.rotation = Product(TurnAbout({1, 0, 0}, j == 10 ? swing : -swing), t.rotation);
+      if (j == 0) t.translation.y += 0.05f * std::abs(swing);  // and hops
+      wide.transforms.push_back(t);
+    }
+  }
+  const Rig from = RigOf(toy), to = RigOf(MadeHuman({}));
+  const Clip made = Retarget(from, wide, to, {.walks = true}).clip;
+  float farthest = 0;
+  for (int k = 0; k < made.keys; ++k) {
+    const Pose pose = PoseAt(to, made, k);
+    farthest =
+        std::max(farthest, std::abs(PlaceOf(to.legs[kLeft].ankle, pose).z - PlaceOf(to.legs[kRight].ankle, pose).z));
+  }
+  EXPECT_GT(farthest, 0.4f * to.leg_m);
+  EXPECT_LT(farthest, 1.0f * to.leg_m);
 }
 
 TEST(Retarget, FeetAreSetFartherApartWhereLegsWouldMeet) {
