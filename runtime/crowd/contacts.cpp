@@ -14,20 +14,30 @@ constexpr float kAheadOf = 0.5f;  // cosine from the way to who is walked into
 constexpr float kStepsBack_mps = 0.1f;
 constexpr size_t kMaxContacts = 6;  // pairs a person: as many as fit around
 
+// How near to the disc's middle somebody may come in this step.
+float Least_m(const MovingObstacle& m, Vec2 from, float radius_m) {
+  return std::min(m.radius_m + radius_m, Length(from - m.center));
+}
+
 // Nobody walks into a disc that is for everyone: a step that would goes along its rim or not at all.
 Vec2 KeepOut(const std::vector<MovingObstacle>& moving, Vec2 from, Vec2 to, float radius_m) {
+  bool turned = false;
   for (const MovingObstacle& m : moving) {
     const Vec2 off = to - m.center;
     const float after2 = Dot(off, off), reach_m = m.radius_m + radius_m;
     if (!m.everyone || after2 >= reach_m * reach_m) continue;
-    const float least_m = std::min(reach_m, Length(from - m.center));
+    const float least_m = Least_m(m, from, radius_m);
     const float after_m = std::sqrt(after2);
     if (after_m >= least_m || after_m < 1e-5f) continue;
     const Vec2 rim = m.center + off * (least_m / after_m);
     const Vec2 along = from + ClampLength(rim - from, Length(to - from));
     to = Length(along - m.center) >= least_m - 1e-4f ? along : from;
+    turned = true;
   }
-  return to;
+  const auto is_in = [&](const MovingObstacle& m) {  // along the rim of another
+    return m.everyone && Length(to - m.center) < Least_m(m, from, radius_m) - 1e-4f;
+  };
+  return turned && std::any_of(moving.begin(), moving.end(), is_in) ? from : to;
 }
 
 // They walk, and towards there.

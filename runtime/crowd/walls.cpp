@@ -235,6 +235,17 @@ Vec2 KeepOffWalls(const Walkable& w, Vec2 from, Vec2 to, float radius_m) {
   return p;
 }
 
+float RoomAlong_m(const Walkable& w, Vec2 p, Vec2 out, float radius_m, float most_m) {
+  constexpr float kStep_m = 0.05f;
+  float room_m = 0;
+  const auto fits = [&](Vec2 at) {
+    const int cell = CellAt(w, at);
+    return cell >= 0 && OnGround(w, at) && (ClearAround_m(w, cell) >= radius_m || Clearance(w, cell, at) >= radius_m);
+  };
+  while (room_m < most_m && fits(p + out * (room_m + kStep_m))) room_m += kStep_m;
+  return room_m;
+}
+
 Vec2 WallPush(const Walkable& w, Vec2 p, float radius_m) {
   const int cell = CellAt(w, p);
   if (cell < 0 || ClearAround_m(w, cell) >= radius_m + kWallComfort_m || NothingNear(w, cell)) return {};

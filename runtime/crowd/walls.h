@@ -48,6 +48,9 @@ inline float ClearAround_m(const Walkable& w, int cell) {
 // is.
 Vec2 KeepOffWalls(const Walkable& w, Vec2 from, Vec2 to, float radius_m);
 
+// How far somebody of this radius gets from p along the unit vector `out`, at most most_m.
+float RoomAlong_m(const Walkable& w, Vec2 p, Vec2 out, float radius_m, float most_m);
+
 // For somebody who stands at a wall and wishes to walk along the unit vector `way`, into it: along the wall to where
 // they fit through, where a door is as near as that; else `way`.
 Vec2 AlongToDoor(const Walkable& w, Vec2 p, float radius_m, Vec2 way);

@@ -1,5 +1,6 @@
 #include "runtime/town/courtesy.h"
 
+#include "runtime/crowd/walls.h"
 #include "runtime/town/places.h"
 
 namespace flaneur {
@@ -11,7 +12,29 @@ constexpr float kAtElbow_m = 1.5f;  // and so near they are felt in any directio
 constexpr float kHeldUpWithin_m = 2.5f;
 constexpr float kGetsOn_m = 1.0f;  // who stays within this for so long does not get on
 constexpr float kPatience_s = 2.5f;
-constexpr int kTries = 5;  // to find somewhere to go that is not behind the visitor
+constexpr float kSees_m = 5;        // that there is no way past the visitor
+constexpr float kMindChanges = 6;   // so many times as fast as who only does not get on
+constexpr float kTowards = 0.8f;    // cosine of a way that leads to the visitor
+constexpr float kWidest_m = 2.5f;   // looked for room to either side
+constexpr float kPasses_m = 0.06f;  // beyond touching
+constexpr int kTries = 5;           // to find somewhere to go that is not behind the visitor
+
+// Coming towards the visitor where it is too narrow for both, whichever way each steps aside.
+bool FindsNoWay(size_t i, const Viewer& viewer, const Town& town) {
+  const Crowd& c = town.crowd;
+  const Walkable& w = town.walkable;
+  const Vec2 at = viewer.camera.position, off = at - c.position[i];
+  const float away_m = Length(off);
+  if (away_m > kSees_m || Dot(c.way[i], off) < kTowards * away_m) return false;
+  if (ClearAround_m(w, CellAt(w, at)) > kWidest_m) return false;
+  const Vec2 left{-c.way[i].y, c.way[i].x};
+  const float radius_m = c.radius_m[i], reach_m = viewer.settings.r_personal_m + radius_m + kPasses_m;
+  for (const float side : {-1.0f, 1.0f}) {
+    const float theirs_m = RoomAlong_m(w, at, left * side, radius_m, kWidest_m);
+    if (theirs_m + RoomAlong_m(w, at, left * -side, CameraRadius_m(w), kWidest_m) >= reach_m) return false;
+  }
+  return true;
+}
 
 }  // namespace
 
@@ -27,12 +50,12 @@ bool IsHeldUpByVisitor(size_t i, const Viewer& viewer, Town* town) {
   const Crowd& c = town->crowd;
   PersonPlan& plan = PlanOf(i, town);
   const Vec2 off = c.position[i] - viewer.camera.position;
-  const bool near = viewer.present && c.activity[i] == Activity::kWalking && c.field[i] >= 0 &&
-                    Dot(off, off) < kHeldUpWithin_m * kHeldUpWithin_m;
-  const Vec2 way = c.position[i] - plan.held_up_at;
-  const bool gets_on = !near || Dot(way, way) > kGetsOn_m * kGetsOn_m;
+  const bool walks = viewer.present && c.activity[i] == Activity::kWalking && c.field[i] >= 0;
+  const bool no_way = walks && FindsNoWay(i, viewer, *town);
+  const bool near = walks && Dot(off, off) < kHeldUpWithin_m * kHeldUpWithin_m;
+  const bool gets_on = !no_way && (!near || Dot(c.position[i] - plan.held_up_at, c.way[i]) > kGetsOn_m);
   if (gets_on) plan.held_up_at = c.position[i];
-  plan.held_up_s = gets_on ? 0 : plan.held_up_s + Step_s(viewer.settings);
+  plan.held_up_s = gets_on ? 0 : plan.held_up_s + (no_way ? kMindChanges : 1) * Step_s(viewer.settings);
   if (plan.held_up_s < kPatience_s || !plan.goals.empty() || plan.stay || plan.leaves) return false;
   plan.held_up_s = 0;
   return true;

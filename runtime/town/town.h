@@ -134,6 +134,12 @@ struct Viewer {
   float outer_apex_back_m = 0;
   int high = 0, limit = 0;  // people in high resolution now, and the most there may be
 };
+// The visitor's body: as wide as ways are laid for, so that whatever stands about stays well before the near plane, and
+// never so narrow that a wall would be cut by it.
+inline constexpr float kCameraRadius_m = 0.3f, kWidestCamera_m = 0.45f;
+inline float CameraRadius_m(const Walkable& w) {
+  return std::clamp(w.person_radius_m, kCameraRadius_m, kWidestCamera_m);
+}
 inline bool Adapts(const Viewer& viewer) { return viewer.present && viewer.settings.adaptation == Adaptation::kFull; }
 
 }  // namespace flaneur

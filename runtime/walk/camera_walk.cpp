@@ -9,6 +9,7 @@
 #include "runtime/town/loitering.h"
 #include "runtime/walk/guide.h"
 #include "runtime/walk/staging.h"
+#include "runtime/walk/step_aside.h"
 #include "runtime/walk/wander.h"
 
 namespace flaneur {
@@ -30,6 +31,7 @@ constexpr float kGiveUpPoint_s = 3, kGiveUpFarPoint_s = 10, kFarPoint_m = 20;  /
 constexpr float kLooksAside_radps = 0.15f;  // from the guide, and so far: on the way, and from what there is to see
 constexpr float kMostAside_rad = 0.19f, kMostAsideAtHalt_rad = 0.08f;
 constexpr float kBack_rad = 2.3f;          // a turn of more goes by where the guide is
+constexpr float kOnTheWay_rad = 0.3f;      // so much nearer the guide is to where the view turns
 constexpr float kKeepsGuideWithin = 0.7f;  // of half the view
 constexpr float kStands = 0.05f;           // share of the pace
 constexpr float kSidestep_m = 0.7f;        // looked ahead when walking round people
@@ -231,7 +233,8 @@ void TurnBeside(float yaw_rad, float most_aside_rad, const VisitorInTown& v) {
   const float now_rad = visitor.camera.view.yaw_rad, turn_rad = WrapAngle(yaw_rad - now_rad);
   const auto guide = WayToGuide(v);
   const float guide_rad = guide ? WrapAngle(AngleOf(*guide) - now_rad) : 0;
-  const bool back = std::abs(turn_rad) > kBack_rad && turn_rad * guide_rad < 0;
+  const bool on_the_way = std::abs(WrapAngle(turn_rad - guide_rad)) < std::abs(turn_rad) - kOnTheWay_rad;
+  const bool back = on_the_way && std::abs(turn_rad) > kBack_rad && turn_rad * guide_rad < 0;
   TurnForTour(back ? now_rad + std::copysign(kBack_rad / 2, guide_rad) : yaw_rad + visitor.looks_aside_rad, v);
 }
 
@@ -272,7 +275,7 @@ void FollowPoint(float speed_mps, bool turns, const VisitorInTown& v) {
   }
   const Vec2 look = PointAt(walk.route, walk.way_m + kLooksAhead_m) - p;
   if (!turns && Length(look) > kReached_m) TurnForTour(std::atan2(look.y, look.x), v);
-  Walk(RoundPeople(v, way), speed_mps, v);
+  Walk(RoundPeople(v, StepAside(v, way)), speed_mps, v);
 }
 
 // For somebody who walked about while the tour rests.
@@ -310,7 +313,9 @@ void FollowTour(const CameraInput& input, const VisitorInTown& v) {
   else if (pace <= kStands) LookAfterGuide(v);
   // Turns first, then walks: but for who looks about.
   const float ahead = v.visitor.looks_about_s > 0 ? 1 : std::cos(v.visitor.camera.view.yaw_rad - look_rad);
-  if (pace > kStands) Walk(RoundPeople(v, way), TourSpeed_mps(v) * pace * std::max(kSideways, ahead), v);
+  const float behind = PaceBehind(v, way);
+  if (pace > kStands)
+    Walk(RoundPeople(v, StepAside(v, way)), TourSpeed_mps(v) * pace * std::min(behind, std::max(kSideways, ahead)), v);
   else v.visitor.stuck_s = 0;
 }
 

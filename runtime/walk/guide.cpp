@@ -7,6 +7,7 @@
 #include "runtime/town/loitering.h"
 #include "runtime/town/population.h"
 #include "runtime/walk/staging.h"
+#include "runtime/walk/step_aside.h"
 #include "runtime/walk/visitor.h"
 
 namespace flaneur {
@@ -30,6 +31,7 @@ constexpr int kChooseSideEvery_steps = 15;
 constexpr float kClearlyBeside_rad = 0.1f;  // of the picture's middle
 constexpr float kClears_m = 0.15f;          // people keep so much more than touching from the guide
 constexpr float kRoom_m = 0.25f;            // and so much more where they have the choice
+constexpr float kMeets_m = 6;               // a visitor who is nearer
 constexpr float kTalks_m = 10;              // to a visitor who is no farther
 constexpr float kStuck_s = 1.5f, kGetsOn_m = 0.5f, kLoitererYieldRadius_m = 1.6f;
 constexpr float kFarthest_m = 20;  // of a new route the guide is looked for so far
@@ -98,9 +100,24 @@ Vec2 AlongRouteBeside(Vec2 p, const VisitorInTown& v) {
   return WayAlong(v.town.walkable, route, g.way_m, p, &g.corner, &v.town.crowd.search);
 }
 
+// Who would have to get past the visitor to their place, in a lane that is too narrow for it, goes before them until it
+// widens. Zero: nothing of the kind.
+Vec2 KeepsBefore(Vec2 p, const VisitorInTown& v) {
+  const Vec2 visitor = v.visitor.camera.view.position, off = p - visitor, to_place = v.visitor.guide.place - p;
+  const float far_m = Length(off);
+  const bool leads = v.visitor.guide.way_m > v.visitor.tour.visitor_m;
+  if (!leads || far_m > kMeets_m || far_m <= 0 || Dot(to_place, off) >= 0) return {};
+  const Vec2 away = off * (1 / far_m);
+  const Vec2 way = AlongRoute(v.visitor.tour.route, v.visitor.tour.visitor_m);
+  if (LetsPass(v, visitor, way, v.town.crowd.radius_m[v.visitor.guide.index])) return {};
+  v.visitor.guide.walks = true;
+  return away * std::max(Dot(v.visitor.camera.velocity, away), kStops_mps);
+}
+
 Vec2 Wanted(Vec2 p, const VisitorInTown& v) {
   Guide& g = v.visitor.guide;
   if (g.goes_to_place) {
+    if (const Vec2 back = KeepsBefore(p, v); Length(back) > 0) return back;
     const float left_m = Length(g.place - p);
     g.walks = left_m > (g.walks ? kAtPlace_m : kOffPlace_m);
     if (!g.walks) return {};
@@ -133,10 +150,22 @@ void NoteSideInPicture(Vec2 p, const VisitorInTown& v) {
   if (std::abs(at_rad) > kClearlyBeside_rad && std::abs(at_rad) < view.fov_rad / 2) g.is_left = at_rad > 0;
 }
 
+// Where the visitor was, is or soon will be the guide does not get past.
+bool IsInNarrowLane(const VisitorInTown& v) {
+  const GuidedTour& t = v.visitor.tour;
+  const float radius_m = v.town.crowd.radius_m[v.visitor.guide.index];
+  for (const float ahead_m : {-0.9f, 0.0f, 0.7f, 1.4f}) {
+    const float way_m = t.visitor_m + ahead_m;
+    if (!LetsPass(v, PointAt(t.route, way_m), AlongRoute(t.route, way_m), radius_m)) return true;
+  }
+  return false;
+}
+
 float OwnShareOfPace(const VisitorInTown& v) {
   const Guide& g = v.visitor.guide;
   if (GoesToPlace(v) || IsFar(v, v.town.crowd.position[g.index])) return 1;
   const float lead = (g.way_m - v.visitor.tour.visitor_m) / Lead_m(v);
+  if (lead <= 0 && IsInNarrowLane(v)) return 1;  // the guide comes after until there is room
   return std::clamp((lead - kAhead) / (kFullPace - kAhead), 0.0f, 1.0f);
 }
 

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "runtime/crowd/fast_math.h"
+#include "runtime/walk/step_aside.h"
 #include "runtime/walk/visitor.h"
 
 namespace flaneur {
@@ -27,11 +28,6 @@ constexpr float kOfTurn = 0.25f, kOfStart = 0.5f, kOfNow = 0.35f,
                 kOfSight = 0.6f;  // preferences, in shares of the room that it takes
 
 Vec2 LeftOf(Vec2 along) { return {-along.y, along.x}; }
-
-Vec2 AlongRoute(const Route& route, float way_m) {
-  const Vec2 along = PointAt(route, way_m + kTangent_m) - PointAt(route, way_m - kTangent_m);
-  return Length(along) > 1e-3f ? Unit(along) : Vec2{};
-}
 
 float HalfTan(const CameraState& camera) { return std::tan(camera.view.fov_rad / 2); }
 
@@ -65,7 +61,18 @@ float SideOfSightBehind(float way_m, const VisitorInTown& v) {
   return Dot(arrives, look) < 0 ? std::copysign(1.0f, Cross(arrives, look)) : 0;
 }
 
+// In a lane where nobody gets past who stands in it: out of the picture, where need be.
+Vec2 Beyond(Vec2 halt, Vec2 way, float far_m, const VisitorInTown& v) {
+  while (far_m > 0 && !FreeLine(v.town.walkable, halt, halt + way * far_m)) far_m -= kRoomStep_m;
+  return halt + way * std::max(far_m, 0.0f);
+}
+
 }  // namespace
+
+Vec2 AlongRoute(const Route& route, float way_m) {
+  const Vec2 along = PointAt(route, way_m + kTangent_m) - PointAt(route, way_m - kTangent_m);
+  return Length(along) > 1e-3f ? Unit(along) : Vec2{};
+}
 
 float LeadDepth_m(const CameraState& camera) {
   const float feet_m = camera.eye_height_m * camera.aspect / HalfTan(camera);
@@ -86,6 +93,7 @@ Vec2 PlaceBesideSight(size_t halt, Vec2 from, const VisitorInTown& v) {
   const float least_m = v.settings.r_personal_m + 2 * kHalfWidth_m;
   const Vec2 arrives = AlongRoute(t.route, LengthOf_m(t.route));
   const float from_side = Cross(arrives, from - stop.position_m);
+  const bool passes = Length(arrives) == 0 || LetsPass(v, stop.position_m, arrives, kHalfWidth_m);
   Vec2 best = stop.position_m;
   float least_cost = 1e9f;
   for (const float farther_m : {0.0f, 0.8f, -0.8f, 1.6f, -1.6f, -2.4f, -3.2f, -4.0f}) {
@@ -97,6 +105,7 @@ Vec2 PlaceBesideSight(size_t halt, Vec2 from, const VisitorInTown& v) {
         const Vec2 p = stop.position_m + look * ahead_m + left * side_m;
         if (Length(p - stop.position_m) < least_m || !IsFree(v.town.walkable, p)) continue;
         const Vec2 off = p - stop.position_m;
+        if (!passes && Dot(arrives, off) < 0) continue;  // the guide comes first, and stays before the visitor
         const bool crosses = Dot(arrives, off) < 0 && Cross(arrives, off) * from_side < 0;
         const float cost = Intrusion(camera, ahead_m, side_m) + 0.05f * std::abs(farther_m) + 0.02f * Length(p - from) +
                            0.01f * Length(p - next) + (crosses ? kCrosses : 0);
@@ -104,6 +113,7 @@ Vec2 PlaceBesideSight(size_t halt, Vec2 from, const VisitorInTown& v) {
       }
     }
   }
+  if (least_cost == 1e9f && !passes) return Beyond(stop.position_m, arrives, depth_m, v);
   return best;
 }
 

@@ -8,7 +8,11 @@
 namespace flaneur {
 
 struct CameraState;
+struct Route;
 struct VisitorInTown;
+
+// Unit vector, there; zero where the route leads nowhere.
+Vec2 AlongRoute(const Route& route, float way_m);
 
 // How far ahead somebody is seen whole, and how far to the side clear of the picture's middle third. The picture is as
 // CameraState says.

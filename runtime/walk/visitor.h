@@ -14,12 +14,6 @@
 namespace flaneur {
 
 inline constexpr float kEyeHeight_m = 1.65f;
-// The visitor's body: as wide as ways are laid for, so that whatever stands about stays well before the near plane, and
-// never so narrow that a wall would be cut by it.
-inline constexpr float kCameraRadius_m = 0.3f, kWidestCamera_m = 0.45f;
-inline float CameraRadius_m(const Walkable& w) {
-  return std::clamp(w.person_radius_m, kCameraRadius_m, kWidestCamera_m);
-}
 inline constexpr float kUsualAspect = 16.0f / 9;
 
 // Where the camera is put, above everybody's heads, whatever the rules of walking.

@@ -304,5 +304,32 @@ TEST(Crowd, NobodyEntersTheVisitorsPersonalSpace) {
   }
 }
 
+// The guide has a disc too, and whoever passes presses besides.
+TEST(Crowd, NobodyIsPressedIntoTheVisitorsPersonalSpaceByWhoStandsBehindThem) {
+  Walkable w = Field();
+  for (const float side : {-1.0f, 1.0f}) {
+    w.polygons.push_back({{{-3, 0.32f * side}, {3, 0.32f * side}, {3, 2 * side}, {-3, 2 * side}}, {}});
+  }
+  BuildWalkable(0.3f, &w);
+  Random random{3};
+  for (int k = 0; k < 60; ++k) {
+    Crowd crowd;
+    const MovingObstacle visitor{{0, random.Uniform(-0.05f, 0.05f)}, 0.6f, true};
+    const float off_m = random.Uniform(-0.05f, 0.05f);
+    for (const float x : {0.87f, 2.2f}) {
+      Person p;
+      p.position = {x, random.Uniform(-0.05f, 0.05f)};
+      p.field = FieldFor({random.Uniform(-1, 1) < 0 ? -9.0f : 9.0f, 0}, &crowd);
+      AddPerson(p, &crowd);
+      crowd.view.back() = ViewClass::kVisible;
+    }
+    for (int step = 0; step < 120; ++step) {
+      const Vec2 guide{1.6f - 0.004f * static_cast<float>(step), off_m};
+      StepCrowd(w, {visitor, {guide, 0.4f, true, {-0.12f, 0}, 0.25f}}, kStep_s, &scratch, &crowd);
+      ASSERT_GT(Length(crowd.position[0] - visitor.center) - crowd.radius_m[0], 0.59f) << "case " << k << ' ' << step;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace flaneur

@@ -336,5 +336,71 @@ TEST(Guide, StaysAwayFromScenariosWithAWayOfTheirOwn) {
   EXPECT_EQ(s.town.crowd.size(), 20u);
 }
 
+// Two squares and a lane between them that is too narrow for two to pass: 12 to 48 m.
+TourPack LaneTown(float width_m, int people) {
+  TourPack pack = TourTown(people);
+  const float south = 20 - width_m / 2, north = 20 + width_m / 2;
+  pack.obstacles.polygons = {Box({12, 0}, {48, south}), Box({12, north}, {48, 40})};
+  pack.places = {{"west", "exit", {1, 20}, 2}, {"east", "exit", {59, 20}, 2}};
+  return pack;
+}
+
+struct Followed {
+  float before_eyes_s = 0, held_up_s = 0, guide_in_view = 0, nearest_m = 1e9f;
+};
+
+// Somebody within 1.3 m in the middle of the view; a visitor who does not get on.
+Followed FollowTour(Simulation* s) {
+  Followed f;
+  int steps = 0;
+  for (; steps < kMaxSteps && !s->visitor.tour.over; ++steps) {
+    Step(s, 1);
+    const CameraState& camera = s->visitor.camera;
+    const auto off_rad = [&](Vec2 off) { return std::abs(WrapAngle(AngleOf(off) - camera.view.yaw_rad)); };
+    bool near = false;
+    for (size_t i = 0; i < s->town.crowd.size(); ++i) {
+      const Vec2 off = s->town.crowd.position[i] - camera.view.position;
+      near = near || (Length(off) < 1.3f && off_rad(off) < 0.5f);
+      f.nearest_m = std::min(f.nearest_m, Length(off) - s->town.crowd.radius_m[i]);
+    }
+    f.before_eyes_s += near ? 1 / 30.0f : 0;
+    f.held_up_s += camera.asked_mps > 0.3f && camera.actual_mps < 0.2f * camera.asked_mps ? 1 / 30.0f : 0;
+    f.guide_in_view += off_rad(GuideOf(*s) - camera.view.position) < 0.5f;
+  }
+  f.guide_in_view /= static_cast<float>(steps);
+  EXPECT_TRUE(s->visitor.tour.over);
+  return f;
+}
+
+TEST(Guide, IsNoFaceBeforeTheEyesInALaneTooNarrowToPass) {
+  for (const float width_m : {1.2f, 1.5f, 1.8f}) {
+    for (const float look_rad : {0.0f, kPi, kPi / 2}) {
+      TourPack pack = LaneTown(width_m, 1);
+      pack.path = {Halt({5, 20}, 0, 2), Halt({30, 20}, look_rad, 3), Halt({5, 25}, kPi, 3), Halt({55, 20}, 0, 3)};
+      Simulation s = Started(pack);
+      const Followed f = FollowTour(&s);
+      EXPECT_LT(f.before_eyes_s, 1) << width_m << ' ' << look_rad;
+      EXPECT_LT(f.held_up_s, 1) << width_m << ' ' << look_rad;
+      EXPECT_GT(f.guide_in_view, 0.6f) << width_m << ' ' << look_rad;
+      EXPECT_GT(f.nearest_m, s.control.settings.r_personal_m - 0.005f);
+    }
+  }
+}
+
+TEST(Guide, LeadsThroughANarrowLaneWithoutPeopleWhoDanceBeforeTheVisitor) {
+  Followed all;
+  for (const uint64_t seed : {1u, 2u, 3u, 4u}) {
+    TourPack pack = LaneTown(1.8f, 10);
+    pack.crowd.seed = seed;
+    pack.path = {Halt({5, 20}, 0, 2), Halt({55, 20}, 0, 3), Halt({5, 25}, kPi, 3)};
+    Simulation s = Started(pack);
+    const Followed f = FollowTour(&s);
+    all.before_eyes_s += f.before_eyes_s, all.held_up_s += f.held_up_s;
+    EXPECT_GT(f.nearest_m, s.control.settings.r_personal_m - 0.005f) << seed;
+  }
+  EXPECT_LT(all.before_eyes_s, 15);
+  EXPECT_LT(all.held_up_s, 8);
+}
+
 }  // namespace
 }  // namespace flaneur
