@@ -23,7 +23,7 @@ float LowestOf(const std::vector<Vec3>& points) {
   return low;
 }
 
-// From key to key the leg stands that goes back faster. No shorter than two keys, but at the ends of what goes nowhere.
+// From key to key the leg stands that goes back faster. A single key between two of the other's is the other's too.
 std::vector<size_t> Standing(const std::array<Soles, 2>& soles, size_t steps) {
   std::vector<size_t> standing(steps);
   const auto back = [&](size_t side, size_t k) { return MeanZ(soles[side][k]) - MeanZ(soles[side][k + 1]); };

@@ -15,7 +15,6 @@ constexpr float kPatience_s = 2.5f;
 constexpr float kSees_m = 5;        // that there is no way past the visitor
 constexpr float kMindChanges = 6;   // so many times as fast as who only does not get on
 constexpr float kTowards = 0.8f;    // cosine of a way that leads to the visitor
-constexpr float kWidest_m = 2.5f;   // looked for room to either side
 constexpr float kPasses_m = 0.06f;  // beyond touching
 constexpr int kTries = 5;           // to find somewhere to go that is not behind the visitor
 
@@ -26,12 +25,12 @@ bool FindsNoWay(size_t i, const Viewer& viewer, const Town& town) {
   const Vec2 at = viewer.camera.position, off = at - c.position[i];
   const float away_m = Length(off);
   if (away_m > kSees_m || Dot(c.way[i], off) < kTowards * away_m) return false;
-  if (ClearAround_m(w, CellAt(w, at)) > kWidest_m) return false;
   const Vec2 left{-c.way[i].y, c.way[i].x};
   const float radius_m = c.radius_m[i], reach_m = viewer.settings.r_personal_m + radius_m + kPasses_m;
+  if (ClearAround_m(w, CellAt(w, at)) >= reach_m + radius_m) return false;
   for (const float side : {-1.0f, 1.0f}) {
-    const float theirs_m = RoomAlong_m(w, at, left * side, radius_m, kWidest_m);
-    if (theirs_m + RoomAlong_m(w, at, left * -side, CameraRadius_m(w), kWidest_m) >= reach_m) return false;
+    const float theirs_m = RoomAlong_m(w, at, left * side, radius_m, reach_m);
+    if (theirs_m + RoomAlong_m(w, at, left * -side, CameraRadius_m(w), reach_m) >= reach_m) return false;
   }
   return true;
 }

@@ -68,8 +68,8 @@ float PaceBehind(const VisitorInTown& v, Vec2 way) {
 bool LetsPass(const VisitorInTown& v, Vec2 p, Vec2 way, float radius_m) {
   const Vec2 left{-way.y, way.x};
   const float reach_m = v.settings.r_personal_m + radius_m + kPasses_m;
-  return RoomAlong_m(v.town.walkable, p, left, radius_m, kWidest_m) >= reach_m ||
-         RoomAlong_m(v.town.walkable, p, left * -1, radius_m, kWidest_m) >= reach_m;
+  const auto has_room = [&](Vec2 out) { return RoomAlong_m(v.town.walkable, p, out, radius_m, reach_m) >= reach_m; };
+  return has_room(left) || has_room(left * -1);
 }
 
 }  // namespace flaneur
