@@ -28,8 +28,9 @@ constexpr double kShareOfFreeMemory = 0.8;
 Error RequireFile(const TourSettings& s, const fs::path& file) {
   std::error_code ec;
   if (file.empty() || fs::is_regular_file(file, ec)) return Ok();
-  const bool there = fs::exists(file, ec);
-  return Fail(PlaceOfFile(s, file) + file.string() + (there ? ": a folder or device, no file" : ": no such file"));
+  const bool there = fs::exists(file, ec), is_windows = file.string().find('\\') != std::string::npos;
+  return Fail(PlaceOfFile(s, file) + file.string() + (there ? ": a folder or device, no file" : ": no such file") +
+              (is_windows ? "; between folders stands /" : ""));
 }
 
 // Where tour.toml names the file that it is about.

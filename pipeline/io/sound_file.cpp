@@ -23,7 +23,10 @@ Error Decode(const std::filesystem::path& path, SF_INFO* info,
              const std::function<void(const float* samples, size_t frames)>& take) {
   const std::unique_ptr<SNDFILE, int (*)(SNDFILE*)> file(sf_open(path.c_str(), SFM_READ, info), &sf_close);
   if (file == nullptr)
-    return Fail(path.string() + ": not a sound that can be played; give WAV, FLAC, Ogg Vorbis or Opus, or MP3");
+    return Fail(
+        path.string() +
+        ": not a sound that can be played; give WAV, FLAC, Ogg Vorbis or Opus, or MP3 (ffmpeg -i FILE sound.flac " +
+        "makes one of an .m4a)");
   std::vector<float> block(static_cast<size_t>(kBlock_frames) * static_cast<size_t>(info->channels));
   sf_count_t frames = 0, read = 0;
   while ((read = sf_readf_float(file.get(), block.data(), kBlock_frames)) > 0) {

@@ -48,7 +48,10 @@ Error ParseToml(const std::string& text, const std::string& name, toml::table* r
     *root = toml::parse(text, name);
     return Ok();
   } catch (const toml::parse_error& e) {
-    return Fail(name + ":" + std::to_string(e.source().begin.line) + ": not TOML: " + OneLine(e.description()));
+    const std::string why = OneLine(e.description());
+    const bool encoded = why.find("utf-8") != std::string::npos;
+    return Fail(name + ":" + std::to_string(e.source().begin.line) + ": not TOML: " + why +
+                (encoded ? "; save it as UTF-8" : ""));
   }
 }
 

@@ -191,6 +191,14 @@ class BadInput(ProgramTest):
                     line = path.read_text()[:path.read_text().index(f'"{name}"')].count("\n") + 1
                     self.assert_fails(self.bake(path), f"tour.toml:{line}: {key}: ", words)
 
+    def test_a_tour_from_another_system_is_told_what_is_other_here(self):
+        self.with_avatar()
+        write_box_town(self.folder / "town.glb")
+        self.assert_fails(self.bake(self.write_tour(town="models\\\\town.glb")), "tour.toml", "models\\town.glb", "stands /")
+        path = self.write_tour(more='[title_page]\nbackground = "#000000"\n')
+        path.write_bytes(path.read_text().replace('"small"', '"F\u00fchrung"').encode("latin1"))
+        self.assert_fails(self.bake(path), "tour.toml:3", "UTF-8")
+
     def test_a_script_says_what_is_wrong_with_its_options(self):
         write_box_town(self.folder / "town.glb")
         script = SOURCE / "blender_scripts/townspeople/build.py"
