@@ -36,8 +36,7 @@ void AddOptions(CLI::App* app, CheckArguments* a) {
   app->add_option("OBSTACLES", a->obstacles, "GeoJSON file of obstacles, Flaneur's or any other")->required();
   app->add_option("--town", a->towns,
                   "The town they stand for, in any format that footprints reads: walls, ground, doors and exits are "
-                  "checked too. "
-                  "Once for each tile of a city")
+                  "checked too. Once for each tile of a city")
       ->allow_extra_args(false);
   app->add_option("--json", a->json, "Write the findings as JSON");
   app->add_option("--geojson", a->geojson, "Write the findings as GeoJSON points, in the file's own coordinates");

@@ -24,6 +24,8 @@ bool IsWhereItsFileSays(const TownPart& part) {
   return part.position_m.x == 0 && part.position_m.y == 0 && part.yaw_deg == 0 && part.scale == 1;
 }
 
+bool IsTile(const TownModel& m) { return IsOnMap(m.scene) && IsWhereItsFileSays(m.part); }
+
 // The town's own file first, where it has one.
 Error ReadModels(Baking* baking, std::vector<TownModel>* models, Warnings* warnings) {
   const TourSettings& s = baking->settings;
@@ -45,21 +47,27 @@ Error ReadModels(Baking* baking, std::vector<TownModel>* models, Warnings* warni
   return Ok();
 }
 
+// Whose place on the map is the town's: its own file's, else the first tile's. Null: it has no such place.
+const TownModel* Placed(const TourSettings& s, const std::vector<TownModel>& models) {
+  if (!s.town.file.empty()) return &models.front();
+  const auto found = std::find_if(models.begin(), models.end(), IsTile);
+  return found == models.end() ? nullptr : &*found;
+}
+
 // Models that stand where their files have them on the map, and are to stand there: they become one, in the place of
-// the first of them. Where the town has a file of its own it is the first.
+// the first of them. Not where the town has a file of its own that is none.
 Error JoinTiles(const TourSettings& s, std::vector<TownModel>* models, Warnings* warnings) {
-  const auto is_tile = [](const TownModel& m) { return IsOnMap(m.scene) && IsWhereItsFileSays(m.part); };
-  const bool none = !s.town.file.empty() && !is_tile(models->front());
-  if (none || std::none_of(models->begin(), models->end(), is_tile)) return Ok();
+  const TownModel* const placed = Placed(s, *models);
+  if (placed == nullptr || !IsTile(*placed)) return Ok();
   for (TownModel& m : *models)  // what a reader leaves as far away as its file has it
     if (IsWhereItsFileSays(m.part)) MoveNearZero(FarFromZero(kFarForOthers_m, 1, m.scene), &m.scene);
-  if (std::count_if(models->begin(), models->end(), is_tile) < 2) return Ok();
+  if (std::count_if(models->begin(), models->end(), IsTile) < 2) return Ok();
   Scene whole;
   TileJoiner joiner(&whole);
   std::vector<TownModel> kept;
   size_t first = models->size();
   for (TownModel& m : *models) {
-    if (!is_tile(m)) {
+    if (!IsTile(m)) {
       kept.push_back(std::move(m));
       continue;
     }
@@ -67,18 +75,10 @@ Error JoinTiles(const TourSettings& s, std::vector<TownModel>* models, Warnings*
       return Fail(PlaceOfFile(s, m.part.file) + e.message + "; give it a position_m to have it elsewhere");
     if (first == models->size()) first = kept.size(), kept.push_back({m.part, {}, m.source});
   }
-  WarnOfTwice(joiner, warnings);
+  joiner.WarnOfTwice(warnings);
   kept[first].scene = std::move(whole);
   *models = std::move(kept);
   return Ok();
-}
-
-// Whose place on the map is the town's; none: it has no such place.
-const TownModel* Placed(const TourSettings& s, const std::vector<TownModel>& models) {
-  if (!s.town.file.empty()) return &models.front();
-  const auto on_map = [](const TownModel& m) { return IsOnMap(m.scene) && IsWhereItsFileSays(m.part); };
-  const auto found = std::find_if(models.begin(), models.end(), on_map);
-  return found == models.end() ? nullptr : &*found;
 }
 
 }  // namespace

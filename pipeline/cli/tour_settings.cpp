@@ -392,17 +392,13 @@ std::string PlaceOfFile(const TourSettings& settings, const std::filesystem::pat
 }
 
 std::string PlaceOfMessage(const TourSettings& settings, std::string_view message) {
+  const auto& places = settings.places_of_files;
+  const auto is_named = [&](const auto& entry) { return message.starts_with(entry.first.string() + ": "); };
   std::string found;
-  for (bool more = true; more;) {
-    more = false;
-    for (const auto& [file, place] : settings.places_of_files) {
-      const std::string named = file.string() + ": ";
-      if (!message.starts_with(named)) continue;
-      found = place + ": ";
-      message.remove_prefix(named.size());
-      more = true;
-      break;
-    }
+  for (auto it = std::find_if(places.begin(), places.end(), is_named); it != places.end();
+       it = std::find_if(places.begin(), places.end(), is_named)) {
+    found = it->second + ": ";
+    message.remove_prefix(it->first.string().size() + 2);
   }
   return found;
 }

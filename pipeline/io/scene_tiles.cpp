@@ -165,7 +165,6 @@ struct TileJoiner::Known {
 
 TileJoiner::TileJoiner(Scene* whole) : known_(new Known{*whole, {}, {}, {}, {}}) {}
 TileJoiner::~TileJoiner() = default;
-int TileJoiner::twice() const { return known_->twice; }
 
 Error TileJoiner::Add(const std::filesystem::path& file, Scene tile) {
   Scene& whole = known_->whole;
@@ -188,9 +187,9 @@ Error TileJoiner::Add(const std::filesystem::path& file, Scene tile) {
 
 bool IsOnMap(const Scene& scene) { return scene.origin_m.x != 0 || scene.origin_m.y != 0; }
 
-void WarnOfTwice(const TileJoiner& joiner, std::vector<std::string>* warnings) {
-  if (joiner.twice() > 0 && warnings)
-    warnings->push_back(std::to_string(joiner.twice()) + " things stand in two tiles with the same shape; taken once");
+void TileJoiner::WarnOfTwice(std::vector<std::string>* warnings) const {
+  if (known_->twice > 0 && warnings)
+    warnings->push_back(std::to_string(known_->twice) + " things stand in two tiles with the same shape; taken once");
 }
 
 Error ReadTiles(const std::vector<std::filesystem::path>& files, const ReadSceneOptions& options, Scene* scene,
@@ -207,7 +206,7 @@ Error ReadTiles(const std::vector<std::filesystem::path>& files, const ReadScene
     if (seen.size() == 1) *source = own;
     if (Error error = joiner.Add(file, std::move(tile))) return error;
   }
-  WarnOfTwice(joiner, warnings);
+  joiner.WarnOfTwice(warnings);
   return Ok();
 }
 

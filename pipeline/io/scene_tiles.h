@@ -22,7 +22,7 @@ class TileJoiner {
   // `file`: what messages call it. Errors: with map coordinates among tiles that have none, or the other way round; far
   // from the first one; cannot be brought into its system.
   Error Add(const std::filesystem::path& file, Scene tile);
-  int twice() const;  // things that were there already
+  void WarnOfTwice(std::vector<std::string>* warnings) const;  // of things that were there already; may be null
 
  private:
   struct Known;
@@ -35,8 +35,5 @@ bool IsOnMap(const Scene& scene);
 // Reads all files and puts them together. `source`: the first one's. Errors: as ReadScene and TileJoiner.
 Error ReadTiles(const std::vector<std::filesystem::path>& files, const ReadSceneOptions& options, Scene* scene,
                 SceneSource* source, std::vector<std::string>* warnings);
-
-// For who reads the tiles themselves.
-void WarnOfTwice(const TileJoiner& joiner, std::vector<std::string>* warnings);
 
 }  // namespace flaneur

@@ -110,14 +110,16 @@ Vec2 KeepsBefore(Vec2 p, const VisitorInTown& v) {
   const Vec2 away = off * (1 / far_m);
   const Vec2 way = AlongRoute(v.visitor.tour.route, v.visitor.tour.visitor_m);
   if (LetsPass(v, visitor, way, v.town.crowd.radius_m[v.visitor.guide.index])) return {};
-  v.visitor.guide.walks = true;
   return away * std::max(Dot(v.visitor.camera.velocity, away), kStops_mps);
 }
 
 Vec2 Wanted(Vec2 p, const VisitorInTown& v) {
   Guide& g = v.visitor.guide;
   if (g.goes_to_place) {
-    if (const Vec2 back = KeepsBefore(p, v); Length(back) > 0) return back;
+    if (const Vec2 before = KeepsBefore(p, v); Length(before) > 0) {
+      g.walks = true;
+      return before;
+    }
     const float left_m = Length(g.place - p);
     g.walks = left_m > (g.walks ? kAtPlace_m : kOffPlace_m);
     if (!g.walks) return {};

@@ -29,6 +29,14 @@ class Formats(unittest.TestCase):
     def tearDownClass(cls):
         cls.keep.cleanup()
 
+    def blender_by_script(self, first=""):
+        """A shell script elsewhere that does something first, and then is Blender."""
+        script = self.folder / "blender.sh"
+        program = shutil.which(os.environ.get("FLANEUR_BLENDER", "blender"))
+        script.write_text(f'#!/bin/sh\n{first}\nexec "{program}" "$@"\n')
+        script.chmod(0o755)
+        return str(script)
+
     def levels_of(self, name):
         facts = self.folder / "levels.json"
         result = run("flaneur", "avatar", self.folder / name, "-o", self.folder / "out.glb", "--json", facts)
@@ -121,22 +129,17 @@ class Formats(unittest.TestCase):
 
     def test_files_are_read_on_one_thread(self):
         """On several, one run in about four gave other last bits of normals that a file brings itself."""
-        words, blender = self.folder / "words.txt", self.folder / "blender.sh"
-        program = shutil.which(os.environ.get("FLANEUR_BLENDER", "blender"))
-        blender.write_text(f'#!/bin/sh\necho "$@" > "{words}"\nexec "{program}" "$@"\n')
-        blender.chmod(0o755)
+        words = self.folder / "words.txt"
         result = run("flaneur", "avatar", self.folder / "figure.fbx", "-o", self.folder / "out.glb",
-                     env=os.environ | {"FLANEUR_BLENDER": str(blender)})
+                     env=os.environ | {"FLANEUR_BLENDER": self.blender_by_script(f'echo "$@" > "{words}"')})
         self.assertEqual(result.returncode, 0, result.stderr)
         self.assertIn("--threads 1 ", words.read_text())
 
     def test_a_blender_that_a_script_elsewhere_starts_takes_no_python_that_happens_to_come_first(self):
-        blender, own = self.folder / "blender.sh", self.folder / "own"
-        blender.write_text(f'#!/bin/sh\nexec "{shutil.which(os.environ.get("FLANEUR_BLENDER", "blender"))}" "$@"\n')
-        blender.chmod(0o755)
+        own = self.folder / "own"
         venv.create(own, symlinks=True)  # without numpy, which Blender's exporter needs
         result = run("flaneur", "avatar", self.folder / "figure.fbx", "-o", self.folder / "out.glb",
-                     env=os.environ | {"FLANEUR_BLENDER": str(blender), "PATH": f"{own / 'bin'}:{os.environ['PATH']}"})
+                     env=os.environ | {"FLANEUR_BLENDER": self.blender_by_script(), "PATH": f"{own / 'bin'}:{os.environ['PATH']}"})
         self.assertEqual(result.returncode, 0, result.stderr)
 
     def test_a_scan_is_no_figure(self):
